@@ -21,6 +21,7 @@ pub mod lengths;
 pub mod model;
 mod motion;
 pub mod names;
+mod pairs;
 pub mod plausibility;
 pub mod reader;
 pub mod schema;

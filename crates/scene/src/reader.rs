@@ -7,7 +7,7 @@ use crate::kind::Kind;
 use crate::law::Laws;
 use crate::model::{Kinematics, Scene, Spanned, Stepper};
 use crate::slider::SliderScene;
-use crate::{azimuth, check, control_characters, explain, plausibility, suggestions};
+use crate::{azimuth, check, control_characters, explain, pairs, plausibility, suggestions};
 use asperity_run::Warning;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -26,6 +26,10 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
     }
     let mut scene: Scene = toml::from_str(text).map_err(|e| reject(&e, text))?;
     scene.folder = folder.to_path_buf();
+    let unclear = pairs::expand(&mut scene);
+    if !unclear.is_empty() {
+        return Err(Diagnostics(unclear));
+    }
     let doubts = files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
     let (mut errors, mut warnings) = check::check(&scene, laws);

@@ -1,8 +1,9 @@
-//! Sliding on a slope, up a wedge, up a cone, past an end and back, and of a round die over a soft slab.
+//! Sliding on a slope, up a wedge, up a cone, past an end and back, from body to body, and of a round die over a soft slab.
 
 mod cone;
 mod ends;
 mod ironing;
+mod joint;
 mod slope;
 mod wedge;
 
@@ -33,6 +34,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     wedge::run(ledger)?;
     cone::run(ledger)?;
     ends::run(ledger)?;
+    joint::run(ledger)?;
     ironing::run(ledger)
 }
 

@@ -68,6 +68,7 @@ mod samples;
 mod scene_schema;
 mod scenes;
 mod setup;
+mod several_sides;
 mod signs;
 mod sister_checks;
 mod sites;

@@ -7,7 +7,7 @@
 use super::PlannedInterface;
 use super::assembly::Assembly;
 use super::start_gaps::{self, MeasuredGaps};
-use super::surfaces::SurfacePair;
+use super::surfaces::FacingSurfaces;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Interface as Spec;
 use crate::reading::scene::model::Spanned;
@@ -46,7 +46,7 @@ fn shift<const D: usize>(
 ) -> Result<Option<Vec<f64>>, Diagnostic> {
     let own = assembly.entry(planned);
     let Some((gap, place)) = wanted(own.spec) else { return Ok(None) };
-    let surfaces = SurfacePair::find(&assembly.model, own)?;
+    let surfaces = FacingSurfaces::find(&assembly.model, own)?;
     let measured = start_gaps::measure(assembly, planned, surfaces.slave.sides)?;
     let size = surfaces.slave.cell_size(&assembly.model);
     let farthest = measured.facing.iter().max_by(|a, b| (a.gap - gap).abs().total_cmp(&(b.gap - gap).abs()));

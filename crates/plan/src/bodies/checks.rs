@@ -4,7 +4,7 @@ use super::PlannedInterface;
 use super::assembly::Assembly;
 use super::cohesive::{self, Shortest, pressed};
 use super::friction::Friction;
-use super::surfaces::SurfacePair;
+use super::surfaces::FacingSurfaces;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
 use crate::shared::checks::model_checks::{self, DrivenSurface, body_name, field_bytes, machines};
@@ -36,7 +36,7 @@ pub(super) fn collect<const D: usize>(
         let own = assembly.entry(planned);
         let friction = frictions[k].as_ref();
         let normal = pressed(scene, model, stages, own).filter(|normal| *normal > 0.0);
-        let surfaces = SurfacePair::find(model, own)?;
+        let surfaces = FacingSurfaces::find(model, own)?;
         let nodes: Vec<usize> = planned.slave.iter().map(|point| point.0).collect();
         let shortest = cohesive::shortest(model, &surfaces, &nodes, friction);
         checks.interfaces.push(InterfaceCheck {
@@ -84,7 +84,8 @@ fn driven<const D: usize>(
     }
     let size = surface::length(&sum);
     let normal = if size > 0.0 { sum.map(|c| c / size) } else { sum };
-    Ok(DrivenSurface { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
+    let bodies = [vec![body_name(&spec.slave)], spec.master.iter().map(body_name).collect()];
+    Ok(DrivenSurface { bodies, normal, area, rubs })
 }
 
 /// Lengths of friction that weakens, and the distance of points, where the fewest points lie on the cohesive zone.

@@ -1,6 +1,8 @@
 //! Warnings about sides of interfaces with too few faces.
 
+use super::surfaces::FacingSurfaces;
 use crate::reading::scene::model::Interface as Spec;
+use crate::shared::model::Model;
 use asperity_fem::mesh::MeshFace;
 use asperity_mechanics::{Measure, PlannedInterface};
 use asperity_run::Warning;
@@ -9,13 +11,14 @@ use asperity_run::Warning;
 /// point at which penetration is detected.
 const COARSER: f64 = 3.0;
 
-/// Warnings about the faces of an interface whose mesh nodes lie at `nodes`.
+/// Warnings about the faces of an interface between these surfaces.
 pub fn doubts<const D: usize>(
-    nodes: &[[f64; D]],
+    model: &Model<D>,
     planned: &PlannedInterface,
+    surfaces: &FacingSurfaces<'_, D>,
     spec: &Spec,
 ) -> impl Iterator<Item = Warning> {
-    [single(planned, spec), coarser(nodes, planned, spec)].into_iter().flatten()
+    [single(planned, spec), coarser(model, planned, surfaces, spec)].into_iter().flatten()
 }
 
 /// Warning about a slave side with a single face: its tractions cannot vary, whatever the body does.
@@ -29,11 +32,18 @@ fn single(planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
     })
 }
 
-/// Warning about slave nodes so far apart that the master passes between them.
-fn coarser<const D: usize>(nodes: &[[f64; D]], planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
-    let of =
-        |faces: &[MeshFace]| faces.iter().map(|f| extent(nodes, &f.nodes)).sum::<f64>() / faces.len() as f64;
-    let ratio = of(&planned.slave_faces) / of(&planned.master_faces);
+/// Warning about slave nodes so far apart that a master passes between them.
+fn coarser<const D: usize>(
+    model: &Model<D>,
+    planned: &PlannedInterface,
+    surfaces: &FacingSurfaces<'_, D>,
+    spec: &Spec,
+) -> Option<Warning> {
+    let size = |faces: &[MeshFace]| {
+        faces.iter().map(|f| extent(&model.mesh.nodes, &f.nodes)).sum::<f64>() / faces.len() as f64
+    };
+    let finest = surfaces.masters.iter().map(|m| size(&m.faces(model))).fold(f64::INFINITY, f64::min);
+    let ratio = size(&planned.slave_faces) / finest;
     (planned.measure == Measure::NodeToPoint && ratio > COARSER).then(|| {
         let message = format!(
             "faces of the slave side of interface `{}` are {ratio:.1} times as large as those of its master side, whose nodes penetrate between slave \

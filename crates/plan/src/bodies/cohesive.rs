@@ -3,10 +3,10 @@
 
 use super::PlannedInterface;
 use super::friction::Friction;
-use super::surfaces::{BodySurface, SurfacePair};
+use super::surfaces::{BodySurface, FacingSurfaces};
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Interface, Scene, UnderResolution};
+use crate::reading::scene::model::{Interface, Scene, Spanned, UnderResolution};
 use crate::shared::cohesive::enough;
 use crate::shared::entry::Entry;
 use crate::shared::model::{Body, Model};
@@ -32,7 +32,7 @@ pub(super) struct Shortest {
 /// weaken with slip.
 pub(super) fn shortest<const D: usize>(
     model: &Model<D>,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
     nodes: &[usize],
     friction: Option<&Friction>,
 ) -> Option<[Shortest; 2]> {
@@ -41,7 +41,9 @@ pub(super) fn shortest<const D: usize>(
         let elastic = surface.body.elastic.first()?;
         Some(modulus(model.idealisation, elastic.shear(), elastic.poisson()))
     };
-    let (a, b) = (of_side(&surfaces.slave)?, of_side(&surfaces.master)?);
+    // Against the softest master lengths are shortest.
+    let masters: Option<Vec<f64>> = surfaces.masters.iter().map(of_side).collect();
+    let (a, b) = (of_side(&surfaces.slave)?, masters?.into_iter().reduce(f64::min)?);
     let modulus = 2.0 * a * b / (a + b);
     let of = |law| Ground { law, normal: 1.0, modulus, in_space: D == 3 }.lengths();
     let mut found: Option<[Shortest; 2]> = None;
@@ -136,8 +138,8 @@ pub fn pressed<const D: usize>(
     Entry { name, spec }: Entry<'_, Interface>,
 ) -> Option<f64> {
     let touched = |body: &str| {
-        let of = |set: &str| set.split('.').next() == Some(body);
-        scene.interfaces.values().filter(|i| of(i.slave.get_ref()) || of(i.master.get_ref())).count()
+        let own = |set: &Spanned<String>| set.get_ref().split('.').next() == Some(body);
+        scene.interfaces.values().filter(|i| i.sides().any(own)).count()
     };
     let by = |set: &str| {
         let body = &model.bodies[model.body_of(set)?];
@@ -145,7 +147,10 @@ pub fn pressed<const D: usize>(
         let sides = model.mesh.side_sets.get(set)?;
         if alone { mean(model, stages, name, (body, sides)) } else { None }
     };
-    by(spec.slave.get_ref()).or_else(|| by(spec.master.get_ref()))
+    // Several masters share what presses the interface, and each bears a part.
+    let mut masters = spec.master.iter();
+    let master = masters.next().filter(|_| masters.next().is_none());
+    by(spec.slave.get_ref()).or_else(|| by(master?.get_ref()))
 }
 
 /// Force along the outward normal of a flat side over its area; the largest of the stages in which friction acts.

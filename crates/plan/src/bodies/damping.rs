@@ -1,13 +1,15 @@
 //! Radiation damping of interfaces.
 
-use super::surfaces::{BodySurface, SurfacePair};
+use super::surfaces::FacingSurfaces;
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{DampingSpec, Interface, Scene, Spanned};
+use crate::reading::scene::model::{DampingSpec, Interface, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::impedance;
 use crate::shared::model::Model;
+use asperity_fem::mesh::Side;
 use asperity_run::Warning;
+use std::fmt::Display;
 
 /// Relative difference of impedances along a side that is rounding.
 const SAME: f64 = 1e-9;
@@ -20,23 +22,23 @@ pub fn radiation<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     Entry { name, spec }: Entry<'_, Interface>,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
 ) -> Result<Option<f64>, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(None) };
     if let DampingSpec::Value(value) = *given.get_ref() {
         return Ok(Some(value));
     }
-    let of_side = |surface: &BodySurface<'_, D>, set: &Spanned<String>| {
-        let all = impedance::behind(scene, model, surface.sides, None)?;
+    let of_side = |sides: &[Side], set: &dyn Display| {
+        let all = impedance::behind(scene, model, sides, None)?;
         one(&all).map_err(|why| {
             let (message, help) = match why {
                 Why::NoDensity => (
-                    format!("the radiation damping of interface `{name}` needs the density of the material at `{set}`"),
+                    format!("the radiation damping of interface `{name}` needs the density of the material at {set}"),
                     "add `density = \"2670 kg/m^3\"` to it, or give the damping in Pa s/m",
                 ),
                 Why::Several([least, most]) => (
                     format!(
-                        "the materials along `{set}` have impedances from {least:.4e} to {most:.4e} Pa s/m, and interface `{name}` has one damping"
+                        "the materials along {set} have impedances from {least:.4e} to {most:.4e} Pa s/m, and interface `{name}` has one damping"
                     ),
                     "give the damping in Pa s/m, or make an interface for each material",
                 ),
@@ -44,8 +46,8 @@ pub fn radiation<const D: usize>(
             Diagnostic::at(given.span(), message, help)
         })
     };
-    let of_slave = of_side(&surfaces.slave, &spec.slave)?;
-    Ok(Some(impedance::radiated(of_slave, of_side(&surfaces.master, &spec.master)?)))
+    let of_slave = of_side(surfaces.slave.sides, &format_args!("`{}`", spec.slave))?;
+    Ok(Some(impedance::radiated(of_slave, of_side(&surfaces.master_sides(), &spec.master)?)))
 }
 
 /// Warning about a damping that is far from what the bodies radiate.
@@ -56,13 +58,12 @@ pub fn doubt<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     Entry { name, spec }: Entry<'_, Interface>,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
 ) -> Result<Option<Warning>, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(None) };
     let DampingSpec::Value(value) = *given.get_ref() else { return Ok(None) };
-    let SurfacePair { slave, master } = surfaces;
-    let [of_slave, of_master] = [slave, master].map(|s| impedance::behind(scene, model, s.sides, None));
-    let (of_slave, of_master) = (of_slave?, of_master?);
+    let of_slave = impedance::behind(scene, model, surfaces.slave.sides, None)?;
+    let of_master = impedance::behind(scene, model, &surfaces.master_sides(), None)?;
     let pairs = of_slave.iter().flat_map(|a| of_master.iter().map(move |b| (*a).zip(*b)));
     let radiated: Vec<Option<f64>> = pairs.map(|pair| pair.map(|(a, b)| impedance::radiated(a, b))).collect();
     Ok(doubts::damping(&format!("interface `{name}`"), given.span(), value, radiated))

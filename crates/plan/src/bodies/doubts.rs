@@ -3,9 +3,9 @@
 use super::assembly::Assembly;
 use super::friction::Friction;
 use super::penalty::{self, SofterCells};
-use super::start_gaps::{self, StartContact};
-use super::surfaces::SurfacePair;
-use super::{PlannedInterface, StartGap, coarse, cohesive, damping, overlaps, rim};
+use super::start_gaps::{self, MeasuredGaps, StartContact};
+use super::surfaces::FacingSurfaces;
+use super::{PlannedInterface, StartGap, coarse, cohesive, damping, overlaps, rim, shared_nodes};
 use crate::doubts as shared;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene};
@@ -40,7 +40,8 @@ pub fn gaps_and_warnings<const D: usize>(
     for (planned, friction) in interfaces.iter().zip(frictions) {
         starts.push(examine(assembly, planned, friction.as_ref(), &mut doubts)?);
     }
-    Ok((starts, doubts))
+    doubts.extend(shared_nodes::doubts(assembly, &starts)?);
+    Ok((starts.into_iter().map(|measured| measured.start).collect(), doubts))
 }
 
 /// Position of the sides of an interface before the first step. Adds warnings about it.
@@ -49,11 +50,11 @@ fn examine<const D: usize>(
     planned: &PlannedInterface,
     friction: Option<&Friction>,
     doubts: &mut Vec<Warning>,
-) -> Result<StartGap, Diagnostic> {
+) -> Result<MeasuredGaps, Diagnostic> {
     let Assembly { scene, model, stages, .. } = assembly;
     let own = assembly.entry(planned);
     let Entry { name, spec } = own;
-    let surfaces = SurfacePair::find(model, own)?;
+    let surfaces = FacingSurfaces::find(model, own)?;
     let mut measured = start_gaps::measure(assembly, planned, surfaces.slave.sides)?;
     let softer = SofterCells::from_sides(model, &surfaces);
     doubts.extend(penalty::doubts(name, &spec.enforcement, &softer));
@@ -64,7 +65,7 @@ fn examine<const D: usize>(
     doubts.extend(start_gaps::doubts(&contact, stages, scene.inertia().is_some()));
     let load = cohesive::pressed(scene, model, stages, own);
     doubts.extend(overlaps::doubt(&contact, &softer, stages, load));
-    doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
+    doubts.extend(coarse::doubts(model, planned, &surfaces, spec));
     doubts.extend(first_order(name, spec));
     doubts.extend(resolution(own, planned, load)?);
     doubts.extend(damping::doubt(scene, model, own, &surfaces)?);
@@ -75,7 +76,7 @@ fn examine<const D: usize>(
             cohesive::nucleation(model, planned, spec, nucleation.length / mean)
         }));
     }
-    Ok(measured.start)
+    Ok(measured)
 }
 
 /// Warning about an evolution law whose steps are first order, while the error estimate assumes second order.

@@ -1,9 +1,11 @@
 //! Events of the interfaces whose laws depend on the slip rate.
 
+use super::surfaces::FacingSurfaces;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
+use crate::shared::entry::Entry;
 use crate::shared::impedance::radiated;
-use crate::shared::model::{self, Model};
+use crate::shared::model::Model;
 use crate::shared::thresholds;
 use asperity_cycles::Thresholds;
 use asperity_fem::kinematics::Idealisation;
@@ -52,8 +54,9 @@ pub fn plan<const D: usize>(
     for &i in &own {
         let planned = &interfaces[i];
         let spec = &scene.interfaces[&planned.name];
-        let slave = shear_modulus(model, model::sides(model, &spec.slave)?);
-        let modulus = 2.0 * radiated(slave, shear_modulus(model, model::sides(model, &spec.master)?));
+        let surfaces = FacingSurfaces::find(model, Entry::new(&planned.name, spec))?;
+        let slave = shear_modulus(model, surfaces.slave.sides);
+        let modulus = 2.0 * radiated(slave, shear_modulus(model, &surfaces.master_sides()));
         points.push(ground.len()..ground.len() + planned.slave.len());
         ground.extend(planned.slave.iter().map(|(node, _)| {
             let x = &model.mesh.nodes[*node];

@@ -3,13 +3,13 @@
 //! With the stress σ and the outward normal n of the slave, the force per area on the slave is σn. Both sides must give the same.
 
 use super::SHARE;
-use super::surfaces::{BodySurface, SurfacePair};
+use super::surfaces::{BodySurface, FacingSurfaces};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as Spec, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
 use crate::shared::model::Model;
-use asperity_fem::mesh::nodes_of_sides;
+use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_fem::surface;
 use asperity_mechanics::{InitialTractions, StressField, coordinates};
 
@@ -24,7 +24,7 @@ pub fn initial_tractions<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     Entry { name, spec }: Entry<'_, Spec>,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
 ) -> Result<Option<InitialTractions>, Diagnostic> {
     let Some(key) = spec.initial_stress.as_ref().filter(|key| *key.get_ref()) else { return Ok(None) };
     let stress = |surface: &BodySurface<'_, D>| {
@@ -32,12 +32,14 @@ pub fn initial_tractions<const D: usize>(
         initial_stress::body_field(scene, body).ok_or_else(|| {
             let message =
                 format!("interface `{name}` starts with an initial stress, and body `{body}` has none");
-            Diagnostic::at(key.span(), message, "both bodies need an `initial_stress`")
+            Diagnostic::at(key.span(), message, "all bodies of the interface need an `initial_stress`")
         })
     };
-    let (here, there) = (stress(&surfaces.slave)?, stress(&surfaces.master)?);
-    let slave = StressedSurface::new(model, &surfaces.slave, here);
-    if let Some(Mismatch { dof, by_slave: a, by_master: b }) = slave.mismatch(&there) {
+    let slave = StressedSurface::new(model, &surfaces.slave, stress(&surfaces.slave)?);
+    for master in &surfaces.masters {
+        let Some(Mismatch { dof, by_slave: a, by_master: b }) = slave.mismatch(&stress(master)?) else {
+            continue;
+        };
         let at = coordinates::in_words(&model.mesh.nodes[dof / D]);
         return Err(Diagnostic::at(
             key.span(),
@@ -45,14 +47,14 @@ pub fn initial_tractions<const D: usize>(
                 "the initial stresses of bodies `{}` and `{}` exert different tractions on interface `{name}`: forces along {} on the node at {at} are {a:.4e} \
                  and {b:.4e}",
                 surfaces.slave.body.name,
-                surfaces.master.body.name,
+                master.body.name,
                 ["x", "y", "z"][dof % D]
             ),
             "what one body exerts the other bears: give both the same stress there, or remove `initial_stress` from the interface",
         ));
     }
     let reach = SHARE * surfaces.slave.cell_size(model);
-    Ok(Some(InitialTractions { points: slave.tractions(&surfaces.master), reach }))
+    Ok(Some(InitialTractions { points: slave.tractions(&surfaces.master_sides()), reach }))
 }
 
 /// Values at nodes of a surface, by degrees of freedom.
@@ -90,13 +92,13 @@ impl<'m, const D: usize> StressedSurface<'m, D> {
     }
 
     /// Tractions at its nodes and their means over the areas of these; of nodes that both sides share there are none.
-    fn tractions(&self, master: &BodySurface<'_, D>) -> Vec<([f64; 3], [f64; 3])> {
+    fn tractions(&self, masters: &[Side]) -> Vec<([f64; 3], [f64; 3])> {
         let Self { model, surface, stress, forces } = self;
         let normals = surface::integrate(&model.mesh, surface.sides, model.idealisation, |point, value| {
             value.copy_from_slice(&point.normal);
         });
         let areas = surface::areas(&model.mesh, surface.sides, model.idealisation);
-        let masters = nodes_of_sides(&model.mesh, master.sides);
+        let masters = nodes_of_sides(&model.mesh, masters);
         let nodes = nodes_of_sides(&model.mesh, surface.sides).into_iter().enumerate();
         // Both lists are ordered by node, with one entry per component.
         let points = nodes.filter(|(_, n)| masters.binary_search(n).is_err()).map(|(k, node)| {

@@ -3,7 +3,7 @@
 use super::enforcement::{enforced, in_pascal_per_metre};
 use super::friction::Friction;
 use super::penalty::{self, SofterCells};
-use super::surfaces::SurfacePair;
+use super::surfaces::FacingSurfaces;
 use super::watch::{self, Resistance};
 use super::{PlannedInterface, cohesive, damping, initial_tractions};
 use crate::reading::diagnostic::Diagnostic;
@@ -36,7 +36,7 @@ pub fn plan<const D: usize>(
              bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets",
         ));
     }
-    let surfaces = SurfacePair::find(model, own)?;
+    let surfaces = FacingSurfaces::find(model, own)?;
     check_faces(model, spec, &surfaces)?;
     let slave = slave_points(model, own, &surfaces)?;
     if slave.is_empty() {
@@ -69,7 +69,7 @@ pub fn plan<const D: usize>(
         unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
         slave,
         slave_faces: surfaces.slave.faces(model),
-        master_faces: surfaces.master.faces(model),
+        master_faces: surfaces.masters.iter().flat_map(|master| master.faces(model)).collect(),
         measure: match spec.measure.get_ref() {
             Measure::NodeToPoint => mechanics::Measure::NodeToPoint,
             Measure::Mortar => mechanics::Measure::Mortar,
@@ -98,11 +98,11 @@ pub fn plan<const D: usize>(
 fn slave_points<const D: usize>(
     model: &Model<D>,
     Entry { name, spec }: Entry<'_, InterfaceSpec>,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
 ) -> Result<Vec<(usize, f64)>, Diagnostic> {
-    let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
+    let slave = surfaces.slave.sides;
     // The tip of a split surface lies on both sides, which cannot separate there.
-    let master_nodes = nodes_of_sides(&model.mesh, master);
+    let master_nodes = nodes_of_sides(&model.mesh, &surfaces.master_sides());
     let nodes =
         nodes_of_sides(&model.mesh, slave).into_iter().filter(|n| master_nodes.binary_search(n).is_err());
     if *spec.measure.get_ref() == Measure::Mortar {
@@ -140,9 +140,9 @@ fn instead(spec: &InterfaceSpec, other: &str) -> String {
 fn check_faces<const D: usize>(
     model: &Model<D>,
     spec: &InterfaceSpec,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
 ) -> Result<(), Diagnostic> {
-    let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
+    let (slave, master) = (surfaces.slave.sides, surfaces.master_sides());
     let linear = |side: &Side| face_kind(&model.mesh, side).first_order();
     if let Some(smoothing) = &spec.smoothing
         && let Some(side) = master.iter().find(|s| !linear(s))

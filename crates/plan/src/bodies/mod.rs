@@ -22,6 +22,7 @@ mod picture;
 mod planner;
 pub mod restraint;
 mod rim;
+mod shared_nodes;
 mod start_balance;
 mod start_gap;
 mod start_gaps;

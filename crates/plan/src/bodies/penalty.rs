@@ -5,7 +5,7 @@
 //! have an error of E_n eps X = k eps (X/h) E.
 
 use super::enforcement::in_pascal_per_metre;
-use super::surfaces::SurfacePair;
+use super::surfaces::FacingSurfaces;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Enforcement, EnforcementKind, Interface as InterfaceSpec, Spanned};
 use crate::reading::scene::units::Penalty;
@@ -45,14 +45,19 @@ pub struct SofterCells {
 }
 
 impl SofterCells {
-    /// Softer row of cells of the slave and the master surface.
+    /// Softest row of cells of the slave and the master surfaces.
     #[must_use]
-    pub(super) fn from_sides<const D: usize>(model: &Model<D>, surfaces: &SurfacePair<'_, D>) -> Self {
-        let SurfacePair { slave, master } = surfaces;
-        let [own, other] = [slave, master].map(|surface| surface.young_per_size(model));
-        let softer = if other < own { master } else { slave };
+    pub(super) fn from_sides<const D: usize>(model: &Model<D>, surfaces: &FacingSurfaces<'_, D>) -> Self {
+        let own = surfaces.slave.young_per_size(model);
+        let mut softer = (own, &surfaces.slave);
+        for master in &surfaces.masters {
+            let young_per_size = master.young_per_size(model);
+            if young_per_size < softer.0 {
+                softer = (young_per_size, master);
+            }
+        }
+        let (young_per_size, softer) = softer;
         let size = softer.cell_size(model);
-        let young_per_size = own.min(other);
         Self {
             body: softer.body.name.clone(),
             contrast: own / young_per_size,

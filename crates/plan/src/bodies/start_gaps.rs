@@ -128,12 +128,12 @@ fn refuse<const D: usize>(
     start: &StartGap,
     points: &PointFields<D>,
 ) -> Option<Diagnostic> {
-    let (slave, master) = (spec.slave.get_ref(), spec.master.get_ref());
+    let (slave, master) = (spec.slave.get_ref(), &spec.master);
     if start.facing == 0 {
         return Some(Diagnostic::at(
             spec.slave.span(),
             format!(
-                "`{slave}` and `{master}` of interface `{}` do not face each other: both look the same way",
+                "`{slave}` and {master} of interface `{}` do not face each other: both look the same way",
                 planned.name
             ),
             "choose the side of each body that looks at the other",
@@ -143,17 +143,15 @@ fn refuse<const D: usize>(
     // either.
     let deepest = -start.gap[1];
     let p = (0..points.gap.len()).find(|&p| points.gap[p].is_finite())?;
-    let bodies = [slave, master].map(|set| model.body_of(set));
+    let bodies = spec.sides().filter_map(|set| model.body_of(set.get_ref()));
     let (name, thick) = bodies
-        .into_iter()
-        .flatten()
         .map(|b| (&model.bodies[b].name, thickness(model, b, &points.normal[p])))
         .min_by(|a, b| a.1.total_cmp(&b.1))?;
     (deepest >= thick * (1.0 - SHARE)).then(|| {
         Diagnostic::at(
             spec.slave.span(),
             format!(
-                "`{slave}` and `{master}` of interface `{}` overlap by {} everywhere, and body `{name}` is {} thick",
+                "`{slave}` and {master} of interface `{}` overlap by {} everywhere, and body `{name}` is {} thick",
                 planned.name,
                 brief(deepest),
                 brief(thick)

@@ -1,7 +1,7 @@
 //! The two surfaces of an interface.
 
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::Interface as Spec;
+use crate::reading::scene::model::{Interface as Spec, Spanned};
 use crate::shared::entry::Entry;
 use crate::shared::model::{self, Body, Model};
 use asperity_fem::mesh::{MeshFace, Side};
@@ -30,26 +30,34 @@ impl<const D: usize> BodySurface<'_, D> {
     }
 }
 
-/// The surfaces of an interface, which look at each other.
-#[derive(Clone, Copy)]
-pub struct SurfacePair<'m, const D: usize> {
+/// The surfaces of an interface: the slave, and all masters that look at it.
+#[derive(Clone)]
+pub struct FacingSurfaces<'m, const D: usize> {
     pub slave: BodySurface<'m, D>,
-    pub master: BodySurface<'m, D>,
+    /// At least one.
+    pub masters: Vec<BodySurface<'m, D>>,
 }
 
-impl<'m, const D: usize> SurfacePair<'m, D> {
+impl<'m, const D: usize> FacingSurfaces<'m, D> {
     /// The surfaces of an interface of the scene.
     ///
     /// # Errors
     /// [`Diagnostic`] at a side that is no set of faces of a body.
     pub fn find(model: &'m Model<D>, Entry { name, spec }: Entry<'_, Spec>) -> Result<Self, Diagnostic> {
-        let (slave, master) = (model::sides(model, &spec.slave)?, model::sides(model, &spec.master)?);
         let body = model.body_of(spec.slave.get_ref()).ok_or_else(|| {
             let help = "sets of bodies are named `body.set`";
             Diagnostic::at(spec.slave.span(), format!("interface `{name}`: the slave side has no body"), help)
         })?;
-        let facing = model.body_of(spec.master.get_ref()).unwrap_or(body);
-        let surface = |body: usize, sides: &'m [Side]| BodySurface { body: &model.bodies[body], sides };
-        Ok(Self { slave: surface(body, slave), master: surface(facing, master) })
+        let surface = |set: &Spanned<String>| {
+            let own = model.body_of(set.get_ref()).unwrap_or(body);
+            Ok(BodySurface { body: &model.bodies[own], sides: model::sides(model, set)? })
+        };
+        let masters = spec.master.iter().map(surface).collect::<Result<_, Diagnostic>>()?;
+        Ok(Self { slave: surface(&spec.slave)?, masters })
+    }
+
+    /// Faces of all masters.
+    pub fn master_sides(&self) -> Vec<Side> {
+        self.masters.iter().flat_map(|master| master.sides).copied().collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Limits on the steps of an interface, derived from its law, the adjacent bodies and the loads.
 
-use super::surfaces::SurfacePair;
+use super::surfaces::FacingSurfaces;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::{Evolution, LawChoice, State};
 use crate::reading::scene::model::Scene;
@@ -35,11 +35,11 @@ pub struct Resistance<'a> {
 pub fn limits<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    surfaces: &SurfacePair<'_, D>,
+    surfaces: &FacingSurfaces<'_, D>,
     Resistance { laws, damping }: Resistance<'_>,
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
-    let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
+    let (slave, master) = (surfaces.slave.sides, &surfaces.master_sides()[..]);
     let speeds = [slave, master].map(|side| impedance::speeds(scene, model, side));
     let [of_slave, of_master] = speeds;
     let bound = rate_bound::bound(of_slave?.into_iter().chain(of_master?));

@@ -156,16 +156,23 @@ impl Checker<'_> {
     }
 
     fn sides(&mut self, name: &str, interface: &Interface) {
-        let (slave, master) = (self.set(&interface.slave), self.set(&interface.master));
-        if let (Some(slave), Some(master)) = (&slave, &master) {
-            self.pairing(name, interface, slave, master);
+        let slave = self.set(&interface.slave);
+        for (k, one) in interface.master.iter().enumerate() {
+            if let (Some(slave), Some(master)) = (&slave, &self.set(one)) {
+                self.pairing(name, [&interface.slave, one], slave, master);
+            }
+            if let Some(twin) = interface.master.iter().take(k).find(|twin| twin.get_ref() == one.get_ref()) {
+                let message = format!("`{one}` is twice a master of interface `{name}`");
+                self.conflict(&one.span(), message, "remove one of the two", (&twin.span(), "and here"));
+            }
         }
+        self.twins(name, interface);
     }
 
-    /// Checks that two sides can be in contact: they belong to different bodies, face each other, and are not paired already.
-    fn pairing(&mut self, name: &str, interface: &Interface, slave: &Side, master: &Side) {
-        let (slave_name, master_name) = (interface.slave.get_ref(), interface.master.get_ref());
-        let (place, also) = (interface.master.span(), (&interface.slave.span(), "the slave"));
+    /// Checks that two sides can be in contact: they belong to different bodies, and face each other.
+    fn pairing(&mut self, name: &str, sides: [&Spanned<String>; 2], slave: &Side, master: &Side) {
+        let [slave_name, master_name] = sides;
+        let (place, also) = (master_name.span(), (&slave_name.span(), "the slave"));
         if slave.0 == master.0 {
             let message =
                 format!("slave and master of interface `{name}` are both sides of body `{}`", slave.0);
@@ -176,12 +183,23 @@ impl Checker<'_> {
                 format!("`{slave_name}` and `{master_name}` of interface `{name}` do not face each other");
             self.conflict(&place, message, format!("`{facing}` faces `{slave_name}`"), also);
         }
-        let pair = |i: &Interface| {
-            let (a, b) = (i.slave.get_ref().clone(), i.master.get_ref().clone());
-            if a < b { (a, b) } else { (b, a) }
+    }
+
+    /// Refuses interfaces between the same two sides.
+    fn twins(&mut self, name: &str, interface: &Interface) {
+        let pairs = |i: &Interface| -> Vec<[String; 2]> {
+            let ordered = |master: &Spanned<String>| {
+                let mut pair = [i.slave.get_ref().clone(), master.get_ref().clone()];
+                pair.sort();
+                pair
+            };
+            i.master.iter().map(ordered).collect()
         };
+        let own = pairs(interface);
         let mut before = self.scene.interfaces.iter().take_while(|(other, _)| other.as_str() != name);
-        if let Some((other, twin)) = before.find(|(_, other)| pair(other) == pair(interface)) {
+        if let Some((other, twin)) =
+            before.find(|(_, other)| pairs(other).iter().any(|pair| own.contains(pair)))
+        {
             let message = format!("interfaces `{other}` and `{name}` lie between the same sides");
             let help = "contact there would be counted twice: remove one of the two";
             self.conflict(&interface.slave.span(), message, help, (&twin.slave.span(), "and here"));

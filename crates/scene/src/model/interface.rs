@@ -1,6 +1,6 @@
 //! Interfaces as declared in a scene.
 
-use super::{DampingSpec, LawFields, LawSpec, UnderResolution};
+use super::{DampingSpec, LawFields, LawSpec, Sides, UnderResolution};
 use crate::key_default::usual;
 use crate::spanned::Spanned;
 use crate::units::{Length, Penalty, Penetration};
@@ -10,14 +10,20 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::{Value, json};
 
-/// A contact interface between two side sets.
+/// A contact interface: a side of a body, and the sides of other bodies that it meets.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Interface {
-    /// Slave side, `BODY.SIDE`.
+    /// Slave side, `BODY.SIDE`; needed without `pairs`.
+    #[serde(default = "nowhere")]
     pub slave: Spanned<String>,
-    /// Master side, of another body, or the other side of a surface along which a body is split.
-    pub master: Spanned<String>,
+    /// Master side, of another body, or the other side of a surface along which a body is split; a list of sides that the slave meets; needed
+    /// without `pairs`.
+    #[serde(default)]
+    pub master: Sides,
+    /// Pairs of sides with the same contact, `[{ slave = .., master = .. }, ..]`, in the place of `slave` and `master`: the interfaces
+    /// `NAME-1`, `NAME-2` and so on.
+    pub pairs: Option<Spanned<Vec<SidePair>>>,
     /// Measure of gaps: `"mortar"` or `"node-to-point"`.
     pub measure: Spanned<Measure>,
     /// Sliding: `"small"`, or `"finite"`, where the pairing follows the motion.
@@ -60,6 +66,28 @@ pub struct Interface {
     #[schemars(with = "Value", extend("not" = json!({}), "x-of" = "Fault"))]
     #[serde(default)]
     pub profiles: Option<Spanned<IgnoredAny>>,
+}
+
+impl Interface {
+    /// The slave side and all master sides.
+    pub fn sides(&self) -> impl Iterator<Item = &Spanned<String>> {
+        std::iter::once(&self.slave).chain(self.master.iter())
+    }
+}
+
+/// Sides that meet.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SidePair {
+    /// Slave side, `BODY.SIDE`.
+    pub slave: Spanned<String>,
+    /// Master side of another body, or a list of sides.
+    pub master: Sides,
+}
+
+/// A side that is not given.
+fn nowhere() -> Spanned<String> {
+    super::here(String::new())
 }
 
 /// Measures of gaps.

@@ -138,7 +138,7 @@ pub(super) fn surfaces<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>])
         }
         let size = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
         DrivenSurface {
-            bodies: [body_name(&spec.minus), body_name(&spec.plus)],
+            bodies: [&spec.minus, &spec.plus].map(|side| vec![body_name(side)]),
             normal: if size > 0.0 { sum.map(|c| c / size) } else { sum },
             area: own().map(|p| p.area).sum(),
             rubs: true,

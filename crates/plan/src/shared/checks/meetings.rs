@@ -2,7 +2,7 @@
 
 use super::double_loads;
 use super::model_checks::body_name;
-use crate::reading::scene::model::{MeshSource, Scene, Spanned};
+use crate::reading::scene::model::{Interface, MeshSource, Scene, Spanned};
 use crate::shared::model::{Model, bounds};
 use asperity_fem::mesh::{Side, cut, meeting};
 use asperity_mechanics::Body;
@@ -16,7 +16,7 @@ fn joined(scene: &Scene, names: [&str; 2]) -> bool {
         let [a, b] = [a, b].map(body_name);
         [[a.as_str(), b.as_str()], [b.as_str(), a.as_str()]].contains(&names)
     };
-    scene.interfaces.values().any(|i| both(&i.slave, &i.master))
+    scene.interfaces.values().any(|i| i.master.iter().any(|master| both(&i.slave, master)))
         || scene.faults.values().any(|f| both(&f.minus, &f.plus))
 }
 
@@ -63,7 +63,7 @@ fn unjoined<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
 
 /// Faces of which a scene says what happens there: those of interfaces, faults and conditions.
 fn known_faces<const D: usize>(scene: &Scene, model: &Model<D>) -> BTreeSet<Side> {
-    let interfaces = scene.interfaces.values().flat_map(|i| [&i.slave, &i.master]);
+    let interfaces = scene.interfaces.values().flat_map(Interface::sides);
     let faults = scene.faults.values().flat_map(|f| [&f.minus, &f.plus]);
     let conditions = scene.stages.iter().flat_map(|stage| &stage.conditions);
     let sets = interfaces.chain(faults).chain(conditions.filter_map(|c| c.get_ref().set.as_ref()));

@@ -84,7 +84,7 @@ pub(crate) fn used(scene: &Scene) -> Vec<(&Spanned<String>, String)> {
     let mut all = Vec::new();
     for (name, interface) in &scene.interfaces {
         let word = format!("interface `{name}`");
-        all.extend([&interface.slave, &interface.master].map(|set| (set, word.clone())));
+        all.extend(interface.sides().map(|set| (set, word.clone())));
     }
     for (name, fault) in scene.faults.iter().filter(|(_, fault)| fault.has_sides()) {
         all.extend([&fault.minus, &fault.plus].map(|set| (set, format!("fault `{name}`"))));
@@ -200,8 +200,8 @@ pub(crate) fn field_bytes<const D: usize>(model: &Model<D>, [nodal, cellwise]: [
 
 /// A surface that springs may drive.
 pub(crate) struct DrivenSurface {
-    /// Bodies on both sides.
-    pub bodies: [String; 2],
+    /// Bodies on each of its two sides.
+    pub bodies: [Vec<String>; 2],
     /// Mean unit normal; zero where all axes of motion lie in the surface.
     pub normal: [f64; 3],
     /// Area \[m²; m per metre of thickness\].
@@ -213,12 +213,13 @@ pub(crate) struct DrivenSurface {
 /// Stiffness of the springs of a stage over the area of the surfaces that they drive, for each surface \[Pa/m\]. A spring drives the surfaces with friction
 /// of its body together, if it pulls along them rather than across. Springs on both sides act one behind the other.
 pub(crate) fn machines(stage: &Stage, surfaces: &[DrivenSurface]) -> Vec<Option<f64>> {
-    let of_body = |body: &str, normal: &[f64; 3]| {
+    let of_side = |bodies: &[String], normal: &[f64; 3]| {
         let along = |axis: usize| normal[axis].powi(2) < 0.5;
-        let own = |set: &str| set.split('.').next() == Some(body);
+        let own = |set: &str| set.split('.').next().is_some_and(|body| bodies.iter().any(|b| b == body));
         let springs = stage.springs.iter().filter(|s| own(&s.set) && along(s.axis));
         let stiffness: f64 = springs.map(|s| s.stiffness).sum();
-        let driven = surfaces.iter().filter(|s| s.rubs && s.bodies.iter().any(|b| b == body));
+        let driven =
+            surfaces.iter().filter(|s| s.rubs && s.bodies.iter().flatten().any(|b| bodies.contains(b)));
         let area: f64 = driven.map(|s| s.area).sum();
         (stiffness > 0.0 && area > 0.0).then(|| stiffness / area)
     };
@@ -226,7 +227,7 @@ pub(crate) fn machines(stage: &Stage, surfaces: &[DrivenSurface]) -> Vec<Option<
         let [a, b] = &surface.bodies;
         let both = [Some(a), Some(b).filter(|b| *b != a)].into_iter().flatten();
         let compliances: Vec<f64> =
-            both.filter_map(|body| of_body(body, &surface.normal)).map(f64::recip).collect();
+            both.filter_map(|bodies| of_side(bodies, &surface.normal)).map(f64::recip).collect();
         (!compliances.is_empty()).then(|| compliances.iter().sum::<f64>().recip())
     };
     surfaces.iter().map(|surface| of(surface).filter(|_| surface.rubs)).collect()

@@ -5,7 +5,7 @@
 //! large blocks the plan relies on the estimates, and neither assembles nor analyses.
 
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Body, Fault, MeshSource, Method, Scene, Spanned, Stepper};
+use crate::reading::scene::model::{Body, Fault, Interface, MeshSource, Method, Scene, Spanned, Stepper};
 use crate::shared::amounts::{self, size};
 use crate::shared::idealisation;
 use crate::shared::model::meshes;
@@ -216,7 +216,7 @@ pub fn factorisation(scene: &Scene) -> Option<usize> {
 #[must_use]
 pub fn condensation(scene: &Scene) -> Option<usize> {
     let components = idealisation::from_kinematics(*scene.kinematics.get_ref()).components();
-    let sets = || scene.interfaces.values().flat_map(|i| [i.slave.get_ref(), i.master.get_ref()]);
+    let sets = || scene.interfaces.values().flat_map(Interface::sides).map(Spanned::get_ref);
     let mut known = 0;
     let mut bytes = 0.0;
     for grid in grids(scene) {

@@ -52,7 +52,7 @@ fn second_order(scene: &Scene, body: &str) -> bool {
             [*i.measure.get_ref() == Measure::NodeToPoint, *i.sliding.get_ref() == Sliding::Finite];
         nodes || finite || i.smoothing.is_some()
     };
-    let slides = scene.interfaces.values().any(|i| (own(&i.slave) || own(&i.master)) && flat(i));
+    let slides = scene.interfaces.values().any(|i| (own(&i.slave) || i.master.iter().any(own)) && flat(i));
     // Masses at the nodes of explicit steps, and the areas at the nodes of faults, are those of first order.
     let explicit = *scene.time.stepper.get_ref() == Stepper::Explicit;
     !slides && !explicit && scene.faults.is_empty()
