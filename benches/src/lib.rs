@@ -52,7 +52,7 @@ fn line(
 pub fn mortar_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<2> {
     let mut spec = line(n, sliding, None, law);
     let faces = (1..n).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![k - 1, k] }).collect();
-    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
     Interface::new(spec).expect("an admissible interface")
 }
 
@@ -82,7 +82,7 @@ pub fn mortar_3d(m: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Inter
         Segment { kind: SegmentKind::Quad4, nodes: vec![at, at + m, at + m + 1, at + 1] }
     };
     let faces = (0..(m - 1) * (m - 1)).map(facet).collect();
-    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
     Interface::new(spec).expect("an admissible interface")
 }
 

@@ -142,13 +142,19 @@ fn measure<const D: usize>(spec: &InterfaceSpec<D>) -> MeasureResult<D> {
         None => Surface::new(spec.master.clone(), &positions),
     };
     Ok(match (&spec.measure, spec.sliding) {
-        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
-            let (measure, examined) =
-                mortar::small(&nodes, &spec.slave, faces, &spec.master, *axisymmetric, spec.fixed_normal);
+        (MeasureKind::Mortar { faces, axisymmetric, mirrors }, sliding) => {
+            let surfaces = mortar::Surfaces {
+                slave: &spec.slave,
+                faces,
+                master: &spec.master,
+                axisymmetric: *axisymmetric,
+                mirrors,
+            };
+            if sliding == Sliding::Finite {
+                return Ok(mortar::finite(&nodes, surfaces));
+            }
+            let (measure, examined) = mortar::small(&nodes, surfaces, spec.fixed_normal);
             (Box::new(measure), examined)
-        }
-        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Finite) => {
-            mortar::finite(&nodes, &spec.slave, faces, &spec.master, *axisymmetric)
         }
         (MeasureKind::NodeToPoint, Sliding::Small) => {
             let (measure, projections) = small(&nodes, &spec.slave, &surface, spec.fixed_normal);

@@ -32,7 +32,8 @@ pub use interface::{Interface, TOUCH};
 pub use observe::{Balance, PointFields, Work};
 pub use press::StartTraction;
 pub use spec::{
-    Enforcement, InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
+    Enforcement, InterfaceSpec, MeasureKind, Mirror, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode,
+    TimeRule,
 };
 pub use status::Status;
 pub use watch::{Course, RateLimit, Watch};

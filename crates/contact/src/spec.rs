@@ -1,5 +1,6 @@
 //! The specification of an interface, as plain values.
 
+pub use crate::measure::mortar::Mirror;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
@@ -82,6 +83,8 @@ pub enum MeasureKind {
         faces: Vec<Segment>,
         /// True if the first coordinate is the radius of a body of revolution. Areas are then those of the full circle.
         axisymmetric: bool,
+        /// Planes of symmetry of both sides through each slave point; empty: none through any.
+        mirrors: Vec<Mirror>,
     },
 }
 

@@ -64,7 +64,7 @@ fn mortar_allocates_nothing_while_its_pairing_stays() {
     for sliding in [Sliding::Small, Sliding::Finite] {
         let mut spec = line_spec(0.4, sliding, coulomb());
         let faces = (4..7).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![k + 1, k] }).collect();
-        spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+        spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
         let u = moved(&spec, 0.4, &[[0.01, -0.1], [0.02, -0.1], [-0.03, -0.1], [0.0, 0.1]], 1e-3, 1);
         let mut line = Interface::new(spec).unwrap();
         line.prepare(&u).unwrap();
@@ -72,7 +72,7 @@ fn mortar_allocates_nothing_while_its_pairing_stays() {
         let mut spec = plate_spec(0.4, SegmentKind::Quad4, sliding, coulomb());
         let faces = vec![Segment { kind: SegmentKind::Quad4, nodes: vec![9, 11, 12, 10] }];
         spec.slave.truncate(4);
-        spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+        spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
         let u = moved(&spec, 0.4, &[[0.01, 0.0, -0.1]; 4], 1e-3, 1);
         let mut plate = Interface::new(spec).unwrap();
         plate.prepare(&u).unwrap();

@@ -42,6 +42,7 @@ pub fn spec<const D: usize>(
             Measure::Mortar => MeasureKind::Mortar {
                 faces: segments(&planned.slave_faces),
                 axisymmetric: model.idealisation == Idealisation::Axisymmetric,
+                mirrors: planned.mirrors.clone(),
             },
         },
         sliding: planned.sliding,

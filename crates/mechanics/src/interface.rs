@@ -4,7 +4,7 @@ use super::enforcement::PlannedEnforcement;
 use super::initial_tractions::InitialTractions;
 use super::stage::Stage;
 use super::zone_resolution::ZoneResolution;
-use asperity_contact::{Sliding, Watch};
+use asperity_contact::{Mirror, Sliding, Watch};
 use asperity_fem::mesh::MeshFace;
 use asperity_friction::law::Law;
 use std::sync::Arc;
@@ -54,6 +54,8 @@ pub struct PlannedInterface {
     pub pressed: Option<InitialTractions>,
     /// Lengths by which the gaps of its points are less than those of the meshes \[m\]; `None` if they start as meshed.
     pub shift: Option<Vec<f64>>,
+    /// Planes of symmetry through its slave nodes; empty if there are none.
+    pub mirrors: Vec<Mirror>,
     /// Resolution of the cohesive zone by its points, if friction weakens with slip.
     pub resolved: Option<ZoneResolution>,
     /// Conditions that steps must meet.

@@ -1,6 +1,7 @@
-//! Curved contact rotated, mirrored and in other units.
+//! Curved contact rotated, mirrored, in other units and cut along planes of symmetry.
 
 pub mod bodies;
+mod halves;
 
 use super::texts::{BodyRun, simulate_in};
 use crate::cases::body_plots;
@@ -76,7 +77,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             }
         }
     }
-    Ok(())
+    halves::run(ledger)
 }
 
 /// Results of a run in the axes and units of the original scene.

@@ -81,7 +81,13 @@ impl<const D: usize> FixedMeasure<D> {
 
     /// Pairs slave point `point` (ascending from call to call) through these nodes, those of the slave before those of the master.
     /// `apart` is `Σ_k s_k X_k`.
-    pub(super) fn pair(&mut self, point: usize, through: &[Attachment], normal: [f64; D], apart: &[f64; D]) {
+    pub(super) fn pair(
+        &mut self,
+        point: usize,
+        through: &[Attachment],
+        (normal, frame): ([f64; D], [[f64; D]; 2]),
+        apart: &[f64; D],
+    ) {
         let from = self.nodes.len();
         let split = from + through.iter().filter(|a| a.slave).count();
         self.nodes.extend(through.iter().map(|a| a.node));
@@ -93,7 +99,7 @@ impl<const D: usize> FixedMeasure<D> {
             split,
             to: self.nodes.len(),
             normal,
-            frame: fixed_frame(&normal),
+            frame,
             gap: dot(&normal, apart),
             parted: 0.0,
             area: self.areas[point],

@@ -44,7 +44,7 @@ fn mortar<const D: usize>(mut spec: InterfaceSpec<D>) -> InterfaceSpec<D> {
         (SegmentKind::Quad4, vec![vec![9, 11, 12, 10]])
     };
     let faces = faces.into_iter().map(|nodes| Segment { kind, nodes }).collect();
-    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
     spec
 }
 
@@ -187,7 +187,7 @@ fn long_line() -> InterfaceSpec<2> {
     let all: Vec<usize> = (masters..masters + slaves).collect();
     let mut spec = spec(&x, &all, master, Sliding::Finite, coulomb());
     let faces = (0..slaves - 1).map(|k| segment([node(k), node(k + 1)])).collect();
-    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
     spec.enforcement = unknown(&spec);
     spec
 }

@@ -87,6 +87,7 @@ pub fn plan<const D: usize>(
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
         pressed: initial_tractions::initial_tractions(scene, model, own, &surfaces)?,
         shift: None,
+        mirrors: Vec::new(),
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),

@@ -15,6 +15,7 @@ mod inertia;
 mod initial_tractions;
 mod interfaces;
 mod linear_solver;
+mod mirrors;
 mod overlaps;
 mod path;
 pub mod penalty;

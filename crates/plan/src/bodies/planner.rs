@@ -4,8 +4,8 @@
 use super::assembly::Assembly;
 use super::friction::Friction;
 use super::{
-    AnyPlan, Plan, StartGap, adjustment, checks, doubts, events, force_notes, inertia, linear_solver, path,
-    restraint, start_balance, stepping, summary,
+    AnyPlan, Plan, StartGap, adjustment, checks, doubts, events, force_notes, inertia, linear_solver,
+    mirrors, path, restraint, start_balance, stepping, summary,
 };
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
@@ -29,6 +29,7 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
 
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let mut assembly = Assembly::<D>::read(scene)?;
+    mirrors::apply(&mut assembly);
     adjustment::apply(&mut assembly)?;
     let path = path::choose(&assembly)?;
     let mass = inertia::mass(scene, &assembly.model, assembly.largest_rate())?;

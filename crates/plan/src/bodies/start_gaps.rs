@@ -109,7 +109,10 @@ fn looks_at<const D: usize>(slave: &[f64; D], points: &PointFields<D>, p: usize)
 }
 
 /// Sums of the outward normals of the slave faces at their nodes.
-fn slave_normals<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -> BTreeMap<usize, [f64; D]> {
+pub fn slave_normals<const D: usize>(
+    model: &Model<D>,
+    planned: &PlannedInterface,
+) -> BTreeMap<usize, [f64; D]> {
     let mut normals: BTreeMap<usize, [f64; D]> = BTreeMap::new();
     for MeshFace { nodes: face, .. } in &planned.slave_faces {
         let normal = model.face_normal(face);

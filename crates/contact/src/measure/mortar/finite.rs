@@ -22,7 +22,7 @@ use super::local::{Change, Local};
 use super::order::{CHUNK, WorkOrder};
 use super::overlap::{self, Integrals, MOST};
 use super::scalar::Dual;
-use super::sides::{AdjacentFace, Sides, SlaveFacet, bases_of};
+use super::sides::{AdjacentFace, Sides, SlaveFacet, Surfaces, bases_of};
 use super::small::FACED;
 use super::state::{Cell, MortarMeasure, Point};
 use super::straight::Lines;
@@ -31,7 +31,7 @@ use crate::measure::fixed_measure::fixed_frame;
 use crate::measure::measure_state::{MeasureState, MortarPointState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::shape::{MOST_NODES, shape};
-use crate::spec::{Segment, SlavePoint, SurfaceNode};
+use crate::spec::SurfaceNode;
 use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, solve_tangential};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
@@ -40,13 +40,10 @@ use rayon::prelude::*;
 #[must_use]
 pub fn finite<const D: usize>(
     nodes: &[SurfaceNode<D>],
-    slave: &[SlavePoint],
-    faces: &[Segment],
-    master: &[Segment],
-    axisymmetric: bool,
+    surfaces: Surfaces<'_>,
 ) -> (Box<dyn Measure<D>>, u64) {
     let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-    let sides = Sides::new(faces, slave, master, &mut x.clone(), axisymmetric);
+    let sides = Sides::new(surfaces, &mut x.clone());
     let dofs = nodes.iter().map(|n| n.dof).collect();
     let (measure, examined) = MortarMeasure::<D>::new(sides, dofs, x);
     (Box::new(measure), examined)
@@ -259,6 +256,10 @@ impl<const D: usize> MortarMeasure<D> {
         for ((&n, w), then) in point.nodes.iter().zip(&point.weights).zip(&point.then) {
             axpy(&mut d, share * w, &self.x[n]);
             axpy(&mut v, then - share * w, &self.x[n]);
+        }
+        let mirror = self.sides.mirrors[p];
+        if mirror.any() {
+            return Local::mirrored(&self.sides.normal_sum(p, &self.x), mirror, d, v);
         }
         let e = self.sides.bases(self.sides.around[p][0], &self.x);
         let material = point.along.map(|[a, b]| add(&scaled(&e[0], a), &scaled(&e[1], b)));

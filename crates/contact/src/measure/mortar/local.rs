@@ -1,5 +1,6 @@
 //! Geometry of a slave point in the present configuration, and the change of its traction with the geometry.
 
+use super::mirror::Mirror;
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::vector::{add, axpy, cross, dot, norm, scaled, unit};
 use asperity_fem::vector::tangent;
@@ -19,6 +20,7 @@ pub(super) struct Local<const D: usize> {
     /// Length of the projection of `e` on the tangent plane.
     projected: f64,
     pub frame: [[f64; D]; 2],
+    mirror: Mirror,
     /// Averaged distance x_s - x_c: `Σ_k s_k x_k`.
     pub d: [f64; D],
     /// Growth of `d` since the last commit at fixed material points: `Σ_k (s_k of the last commit) x_k - d`.
@@ -58,13 +60,23 @@ impl<const D: usize> Local<D> {
         let [e, second] = material;
         if D == 2 {
             let frame = [tangent(&n), [0.0; D]];
-            return Self { n, length, e, second, projected: 1.0, frame, d, v };
+            return Self { n, length, e, second, projected: 1.0, frame, mirror: Mirror::default(), d, v };
         }
         let e = add(&e, &cross(&second, &n));
         let mut q = e;
         axpy(&mut q, -dot(&n, &e), &n);
         let first = unit(&q);
-        Self { n, length, e, second, projected: norm(&q), frame: [first, cross(&n, &first)], d, v }
+        let frame = [first, cross(&n, &first)];
+        Self { n, length, e, second, projected: norm(&q), frame, mirror: Mirror::default(), d, v }
+    }
+
+    /// Constructs the geometry of a point on planes of symmetry, whose frame follows from the normal alone.
+    pub(super) fn mirrored(normals: &[f64; D], mirror: Mirror, d: [f64; D], v: [f64; D]) -> Self {
+        let flat = mirror.flattened(*normals);
+        let length = norm(&flat);
+        let n = scaled(&flat, -length.recip());
+        let none = [0.0; D];
+        Self { n, length, e: none, second: none, projected: 1.0, frame: mirror.frame(&n), mirror, d, v }
     }
 
     /// Gap g_n.
@@ -79,10 +91,14 @@ impl<const D: usize> Local<D> {
 
     /// Computes δn and δframe from the changes of the sum of normals and of the tangent vectors.
     pub(super) fn turn(&self, normals: &[f64; D], [first, second]: &[[f64; D]; 2], out: &mut Change<D>) {
-        let mut dn = scaled(normals, -self.length.recip());
+        let mut dn = scaled(&self.mirror.flattened(*normals), -self.length.recip());
         let out_of_plane = dot(&self.n, &dn);
         axpy(&mut dn, -out_of_plane, &self.n);
         out.n = dn;
+        if self.mirror.any() {
+            out.frame = self.mirror.frame(&dn);
+            return;
+        }
         if D == 2 {
             out.frame[0] = tangent(&dn);
             return;

@@ -26,6 +26,7 @@ mod dual;
 mod facet;
 mod finite;
 mod local;
+mod mirror;
 mod order;
 mod overlap;
 mod pairing;
@@ -40,4 +41,6 @@ mod straight;
 mod weighting;
 
 pub use finite::finite;
+pub use mirror::Mirror;
+pub use sides::Surfaces;
 pub use small::small;

@@ -120,7 +120,7 @@ mod tests {
     use crate::SegmentKind;
     use crate::measure::mortar::cell::{Sums, integrate};
     use crate::measure::mortar::facet::Facet;
-    use crate::measure::mortar::sides::Sides;
+    use crate::measure::mortar::sides::{Sides, Surfaces};
     use crate::shape::MOST_NODES;
     use crate::spec::{Segment, SlavePoint};
     use proptest::prelude::*;
@@ -171,7 +171,9 @@ mod tests {
         nodes.sort_unstable();
         nodes.dedup();
         let points: Vec<SlavePoint> = nodes.iter().map(|&node| SlavePoint { node, area: 1.0 }).collect();
-        let sides = Sides::new(&slave, &points, &master, &mut reference.clone(), false);
+        let surfaces =
+            Surfaces { slave: &points, faces: &slave, master: &master, axisymmetric: false, mirrors: &[] };
+        let sides = Sides::new(surfaces, &mut reference.clone());
         let dofs = (0..reference.len()).map(|k| D * k).collect();
         let (mut measure, _) = MortarMeasure::<D>::new(sides, dofs, reference.clone());
         let radius = measure.found.iter().fold(f64::INFINITY, |least, f| least.min(f.free));

@@ -4,6 +4,7 @@
 use super::cell::ReferenceFacet;
 use super::centre::Centres;
 use super::facet::{Facet, facets, middle, node_at};
+use super::mirror::Mirror;
 use super::rule::{self, Rows, Rule, Rules};
 use super::weighting::Weighting;
 use crate::SegmentKind;
@@ -52,6 +53,21 @@ pub(super) struct AdjacentFace {
     pub local: usize,
 }
 
+/// Both surfaces of an interface as they are given.
+#[derive(Clone, Copy, Debug)]
+pub struct Surfaces<'a> {
+    /// Slave points.
+    pub slave: &'a [SlavePoint],
+    /// Slave faces.
+    pub faces: &'a [Segment],
+    /// Master faces.
+    pub master: &'a [Segment],
+    /// True if the first coordinate is a radius.
+    pub axisymmetric: bool,
+    /// Planes of symmetry through each slave point; empty: none through any.
+    pub mirrors: &'a [Mirror],
+}
+
 /// Both surfaces of an interface.
 #[derive(Clone, Debug)]
 pub(super) struct Sides<const D: usize> {
@@ -64,6 +80,8 @@ pub(super) struct Sides<const D: usize> {
     /// Faces adjacent to each slave point.
     pub around: Vec<Vec<AdjacentFace>>,
     pub axisymmetric: bool,
+    /// Planes of symmetry through each slave point.
+    pub mirrors: Vec<Mirror>,
     pub centres: Centres,
     rules: Rules,
     boxes: Vec<Aabb<D>>,
@@ -74,11 +92,8 @@ impl<const D: usize> Sides<D> {
     /// Collects the facets at reference `positions` of the interface's nodes, to which the middles of faces of eight nodes are added.
     /// Facets without a slave point are left out.
     pub(super) fn new(
-        slave_faces: &[Segment],
-        slave: &[SlavePoint],
-        master: &[Segment],
+        Surfaces { slave, faces: slave_faces, master, axisymmetric, mirrors }: Surfaces<'_>,
         positions: &mut Vec<[f64; D]>,
-        axisymmetric: bool,
     ) -> Self {
         let mut point_of = vec![None; positions.len()];
         for (p, s) in slave.iter().enumerate() {
@@ -99,6 +114,7 @@ impl<const D: usize> Sides<D> {
             beside: vec![Vec::new(); slave.len()],
             around: vec![Vec::new(); slave.len()],
             axisymmetric,
+            mirrors: (0..slave.len()).map(|p| mirrors.get(p).copied().unwrap_or_default()).collect(),
             centres,
             rules: Rules::new(),
             boxes,

@@ -4,11 +4,11 @@ use super::cell::{Sums, integrate};
 use super::dual::{Part, area, dualise_face, dualise_facet, has_duals};
 use super::facet::{Facet, NODES, parts as parts_of};
 use super::rule::Rule;
-use super::sides::{Sides, SlaveFace, SlaveFacet};
+use super::sides::{Sides, SlaveFace, SlaveFacet, Surfaces};
 use crate::measure::Attachment;
-use crate::measure::fixed_measure::FixedMeasure;
+use crate::measure::fixed_measure::{FixedMeasure, fixed_frame};
 use crate::shape::MOST_NODES;
-use crate::spec::{Segment, SlavePoint, SurfaceNode};
+use crate::spec::SurfaceNode;
 use crate::vector::{axpy, scaled, unit};
 use std::collections::BTreeMap;
 
@@ -63,20 +63,18 @@ impl Row {
 #[must_use]
 pub fn small<const D: usize>(
     nodes: &[SurfaceNode<D>],
-    slave: &[SlavePoint],
-    faces: &[Segment],
-    master: &[Segment],
-    axisymmetric: bool,
+    surfaces: Surfaces<'_>,
     fixed_normal: Option<[f64; D]>,
 ) -> (FixedMeasure<D>, u64) {
     let mut x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-    let sides = Sides::new(faces, slave, master, &mut x, axisymmetric);
+    let points = surfaces.slave.len();
+    let sides = Sides::new(surfaces, &mut x);
     let mut examined = 0;
-    let rows = rows(&sides, slave.len(), &x, &mut examined);
-    let whole = sides.whole_areas(slave.len());
+    let rows = rows(&sides, points, &x, &mut examined);
+    let whole = sides.whole_areas(points);
     // A NaN area must not make the point count as unpaired.
     let paired = |p: usize| rows[p].area > FACED * whole[p] || rows[p].area.is_nan();
-    let areas = (0..slave.len()).map(|p| if paired(p) { rows[p].area } else { 0.0 }).collect();
+    let areas = (0..points).map(|p| if paired(p) { rows[p].area } else { 0.0 }).collect();
     let mut measure = FixedMeasure::new(areas, false);
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
         let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
@@ -85,7 +83,10 @@ pub fn small<const D: usize>(
         measure.average(p, row.points.iter().map(|(&q, w)| (q, share * w)).collect());
         let mut apart = [0.0; D];
         through.iter().for_each(|a| axpy(&mut apart, a.weight, &x[a.node]));
-        measure.pair(p, &through, unit(&normal), &apart);
+        let mirror = sides.mirrors[p];
+        let normal = unit(&mirror.flattened(normal));
+        let frame = if mirror.any() { mirror.frame(&normal) } else { fixed_frame(&normal) };
+        measure.pair(p, &through, (normal, frame), &apart);
     }
     measure.finish(nodes);
     (measure, examined)

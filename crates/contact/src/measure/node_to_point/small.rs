@@ -1,7 +1,7 @@
 //! Small sliding: every slave node keeps the point of the master surface that is closest in the reference configuration.
 
 use crate::measure::Attachment;
-use crate::measure::fixed_measure::FixedMeasure;
+use crate::measure::fixed_measure::{FixedMeasure, fixed_frame};
 use crate::search::project::{Outcome, Projection};
 use crate::search::smooth::MOST_SUPPORT;
 use crate::search::surface::{Surface, Weights};
@@ -61,5 +61,5 @@ fn pair<const D: usize>(
     let master = master.map(|(&node, n)| Attachment { node, weight: -n, slave: false });
     let own = Attachment { node: slave.node, weight: 1.0, slave: true };
     let through: Vec<Attachment> = std::iter::once(own).chain(master).collect();
-    measure.pair(point, &through, normal, &apart);
+    measure.pair(point, &through, (normal, fixed_frame(&normal)), &apart);
 }
