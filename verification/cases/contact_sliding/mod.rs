@@ -3,8 +3,10 @@
 mod cone;
 mod ends;
 mod ironing;
+mod jam;
 mod joint;
 mod slope;
+mod twist;
 mod wedge;
 
 use crate::{Capability, Case, CaseError, Ledger};
@@ -35,6 +37,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     cone::run(ledger)?;
     ends::run(ledger)?;
     joint::run(ledger)?;
+    jam::run(ledger)?;
+    twist::run(ledger)?;
     ironing::run(ledger)
 }
 

@@ -1,4 +1,7 @@
-//! A ball on a flat in three dimensions, pressed and sheared to partial slip.
+//! A ball on a flat in three dimensions, pressed and sheared to partial slip, to and fro.
+
+mod cycle;
+mod penalties;
 
 use super::hertz::{self, Hertz, HertzRun, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -26,6 +29,7 @@ const COARSE: f64 = 0.24;
 /// Cell size at which claims are made on both measures \[mm\].
 const CLAIMED: f64 = 0.08;
 const MU: f64 = 0.3;
+const SCENE: &str = include_str!("scene.toml");
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut rows, mut shown) = (Vec::new(), Vec::new());
@@ -92,7 +96,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         "wall [s]",
     ];
     ledger.table("errors against Hertz, Cattaneo and Mindlin at the run's own loads, and cost", &head, rows);
-    Ok(())
+    cycle::run(ledger)?;
+    penalties::run(ledger)
 }
 
 struct Ball {
@@ -107,7 +112,7 @@ struct Ball {
 
 impl Ball {
     fn new(size: f64, measure: Measure, path: Path) -> Result<Self, CaseError> {
-        let mut scene = hertz::refined(hertz::read(include_str!("scene.toml"))?, SIZE / size);
+        let mut scene = hertz::refined(hertz::read(SCENE)?, SIZE / size);
         scene.time.path = path;
         let done = hertz::simulate(&hertz::measured(scene, measure, Sliding::Small))?;
         let radius = |x: [f64; 3]| x[0].hypot(x[2]);
