@@ -21,6 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
+from frd import contact_field
 from timed import run
 from varied import Scene
 
@@ -161,31 +162,10 @@ def deck(points, cells, body, n, method, shear):
     return "\n".join(lines) + "\n", slave
 
 
-def contact_field(path):
-    """The last CONTACT block of a results file: by node, opening, slips, pressure, shears. Also node positions."""
-    nodes, block, last = {}, None, {}
-    reading = None
-    for line in open(path):
-        key = line[:5]
-        if line.startswith("    2C"):
-            reading = "nodes"
-        elif key == " -4  ":
-            reading = "contact" if "CONTACT" in line else None
-            if reading:
-                last = {}
-        elif line[:3] == " -3":
-            reading = None
-        elif line[:3] == " -1" and reading:
-            values = [float(line[13 + 12 * k : 25 + 12 * k]) for k in range((len(line.rstrip()) - 13) // 12)]
-            (nodes if reading == "nodes" else last)[int(line[3:13])] = values
-    return nodes, last
-
-
 def calculix(points, cells, body, n, method, shear, folder, limit):
     text, slave = deck(points, cells, body, n, method, shear)
     (folder / "job.inp").write_text(text)
     said, user, wall = run(["ccx", "-i", "job"], folder, limit)
-    (folder / "said.txt").write_text(said)
     iterations = len(re.findall(r"^ iteration\s+\d+", said, flags=re.M))
     if "Job finished" not in said:
         last = [l.strip() for l in said.splitlines() if "ERROR" in l]
