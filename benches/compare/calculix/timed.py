@@ -1,12 +1,16 @@
-"""Runs a program on one thread with a limit, and measures time and memory of its process.
+"""Runs a program on one thread with a limit of user CPU time, and measures time and memory of its process.
 
     python3 timed.py LIMIT COMMAND ..
 
-runs the command with the text it says going to standard output, and ends with a line of JSON on standard error.
+runs the command with the text it says going to standard output, and ends with a line of JSON on standard error. LIMIT is CPU
+time [s], so that other work on the machine does not matter; wall time may be four times as long.
 """
 
 import json
+import math
 import os
+import resource
+import signal
 import subprocess
 import sys
 import threading
@@ -27,11 +31,12 @@ class Run:
 
 
 def measured(command, folder, limit):
-    """Runs a command in a folder for at most `limit` [s]; what it says stays in said.txt of the folder.
+    """Runs a command in a folder for at most `limit` [s] of CPU time; what it says stays in said.txt of the folder.
 
     It is started by a process of its own, since the peak memory of a process is never below that of its parent at the start.
     """
-    environment = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1", RAYON_NUM_THREADS="1")
+    threads = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER", "RAYON_NUM_THREADS")
+    environment = dict(os.environ, **dict.fromkeys(threads, "1"))
     starter = [sys.executable, "-I", "-S", __file__, str(limit), *map(str, command)]
     with open(folder / "said.txt", "w") as said:
         done = subprocess.run(starter, cwd=folder, env=environment, stdout=said, stderr=subprocess.PIPE, text=True)
@@ -45,19 +50,21 @@ def run(command, folder, limit):
 
 
 def main():
-    start, late = time.time(), threading.Event()
+    start, late, limit = time.time(), threading.Event(), float(sys.argv[1])
+    resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), math.ceil(limit) + 5))
     child = subprocess.Popen(sys.argv[2:], stderr=subprocess.STDOUT)
 
     def stop():
         late.set()
         child.kill()
 
-    timer = threading.Timer(float(sys.argv[1]), stop)
+    timer = threading.Timer(4 * limit, stop)
     timer.start()
     _, status, usage = os.wait4(child.pid, 0)
     timer.cancel()
     wall, code = time.time() - start, os.waitstatus_to_exitcode(status)
-    result = {"ended": not late.is_set(), "code": code, "user": usage.ru_utime, "wall": wall, "peak": usage.ru_maxrss / 1024}
+    ended = not late.is_set() and code not in (-signal.SIGXCPU, -signal.SIGKILL)
+    result = {"ended": ended, "code": code, "user": usage.ru_utime, "wall": wall, "peak": usage.ru_maxrss / 1024}
     print(json.dumps(result), file=sys.stderr)
 
 

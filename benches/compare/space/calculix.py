@@ -79,7 +79,9 @@ def deck(problem, method, factor, large=False):
     lines += [f"*CONTACT PAIR, INTERACTION=SI, TYPE={TYPES[method]}", "Supper, Slower", "*BOUNDARY"]
     lines += [f"{label(side)}, {AXES.index(a) + 1}, {AXES.index(a) + 1}" for side, axes in problem.held.items() for a in axes]
     for stage in problem.stages:
-        lines += ["*STEP, INC=10000" + (", NLGEOM" if large else ""), "*STATIC", f"{1 / stage.steps:.12g}, 1.", "*BOUNDARY"]
+        # Increments grow where few iterations are needed; in finite sliding they are held.
+        increment = f"{1 / stage.steps:.12g}, 1." + (f", 1e-6, {1 / stage.steps:.12g}" if problem.finite else "")
+        lines += ["*STEP, INC=10000" + (", NLGEOM" if large else ""), "*STATIC", increment, "*BOUNDARY"]
         for side, motions in stage.moved.items():
             lines += [f"{label(side)}, {AXES.index(a) + 1}, {AXES.index(a) + 1}, {v}" for a, v in motions.items()]
         lines += [f"*NODE PRINT, NSET={label('upper.' + problem.loaded)}, TOTALS=ONLY", "RF"]

@@ -20,12 +20,13 @@ import with_getfem
 from problems import PROBLEMS
 
 # Stiffness of contact over E/h, and the brick of GetFEM, that suit each code and problem best.
-SURFACE = {"blocks": 10.0, "ball": 10.0, "cylinders": 10.0, "cylinders, plastic": 10.0, "ironing": 10.0}
-GETFEM = {}
+PENALTY = {"cylinders, plastic": 10.0, "ironing": 10.0}
+SURFACE = {"blocks": 100.0, "ball": 10.0, "cylinders": 100.0, "cylinders, plastic": 100.0, "ironing": 10.0}
+GETFEM = {"ball": ("raytracing", 100.0), "cylinders": ("raytracing", 10.0)}
 
 CODES = {
-    "asperity": lambda p, d, g: asperity.run(g.program, p, d, g.limit),
-    "asperity-node": lambda p, d, g: asperity.run(g.program, p, d, g.limit, measure="node-to-point"),
+    "asperity": lambda p, d, g: asperity.run(g.program, p, d, g.limit, "mortar", PENALTY.get(p.name, 100.0)),
+    "asperity-node": lambda p, d, g: asperity.run(g.program, p, d, g.limit, "node-to-point", PENALTY.get(p.name, 100.0)),
     "ccx-mortar": lambda p, d, g: calculix.run(p, d, g.limit, "mortar", 10.0),
     "ccx-surface": lambda p, d, g: calculix.run(p, d, g.limit, "surface", SURFACE[p.name]),
     "getfem": lambda p, d, g: with_getfem.run(p, d, g.limit, *GETFEM.get(p.name, ("raytracing", 1.0)), python=g.getfem),
@@ -49,7 +50,7 @@ def main():
     parser.add_argument("--problems", nargs="+", choices=PROBLEMS, default=list(PROBLEMS))
     parser.add_argument("--sizes", nargs="+", type=int, choices=(1, 5, 20, 80), default=[5, 20, 80])
     parser.add_argument("--codes", nargs="+", choices=CODES, default=list(CODES))
-    parser.add_argument("--limit", type=float, default=600, help="seconds a run may take")
+    parser.add_argument("--limit", type=float, default=600, help="CPU seconds a run may take")
     parser.add_argument("--getfem", default="/usr/bin/python3", help="the Python that has GetFEM")
     parser.add_argument("--keep", help="folder in which inputs and results stay")
     given = parser.parse_args()

@@ -126,18 +126,25 @@ class Child:
             self.step(before, after, time, length)
 
     def result(self):
-        basic = self.multiplier.basic_dof_on_region(self.region(self.job["slave"]))
-        components = self.multiplier.qdim()
-        places = self.multiplier.basic_dof_nodes(basic)[:, ::components]
-        values = np.array(self.model.variable("multiplier")).reshape(-1, components)
-        pressure = values[:, 1 if components == 3 else 0]
-        same = len(pressure) == places.shape[1]
-        return {
-            "iterations": self.iterations,
-            "forces": self.history,
-            "pressures": [[*map(float, place), float(p)] for place, p in zip(places.T, pressure)] if same else [],
-            "unknowns": int(self.model.nbdof()),
-        }
+        found = {"iterations": self.iterations, "forces": self.history, "unknowns": int(self.model.nbdof()), "pressures": []}
+        places, pressures = self.pressures()
+        found["pressures"] = [[*map(float, place), float(p)] for place, p in zip(places, pressures)]
+        return found
+
+    def pressures(self):
+        """Means of the multiplier around nodes of the slave, weighted by their functions: y components, as sides are nearly level."""
+        slave, components = self.region(self.job["slave"]), self.multiplier.qdim()
+        basic = np.array(self.multiplier.basic_dof_on_region(slave))
+        values = np.array(self.model.variable("multiplier"))
+        if len(values) != len(basic):
+            return [], []
+        mine = basic[1::3] if components == 3 else basic
+        values = values[1::3] if components == 3 else values
+        mass = gf.asm_mass_matrix(self.integral["upper"], self.multiplier, self.multiplier, slave)
+        full, ones = np.zeros((2, self.multiplier.nbdof()))
+        full[mine], ones[mine] = values, 1
+        means = np.array(mass.mult(full))[mine] / np.array(mass.mult(ones))[mine]
+        return self.multiplier.basic_dof_nodes(mine).T, means
 
 
 def main():

@@ -37,7 +37,7 @@ class Problem:
 
 def blocks(size):
     """A block of 20 x 10 x 20 on one of 30 x 10 x 30, pressed by 0.05 and sheared by 0.02."""
-    (nx, ny), (mx, my) = {5: ((12, 6), (9, 3)), 20: ((20, 10), (16, 5)), 80: ((33, 16), (26, 9)), 1: ((5, 3), (4, 2))}[size]
+    (nx, ny), (mx, my) = {5: ((12, 6), (10, 3)), 20: ((20, 10), (17, 5)), 80: ((33, 16), (26, 9)), 1: ((5, 3), (4, 2))}[size]
     across, along = np.linspace(5, 25, nx + 1), np.linspace(0, 30, mx + 1)
     return Problem(
         "blocks",
@@ -96,7 +96,7 @@ def cylinders(size, plastic=False):
 
 
 def ironing(size):
-    """Half of a crowned die, pressed by 0.06 into half of a softer slab and drawn by 2: finite sliding."""
+    """Half of a crowned die, pressed by 0.04 into half of a softer slab and drawn by 2: finite sliding."""
     (nx, ny, nz), (mx, my, mz) = {
         5: ((8, 4, 4), (28, 4, 8)),
         20: ((14, 7, 7), (48, 6, 14)),
@@ -107,10 +107,10 @@ def ironing(size):
     slab = grid(np.linspace(0, 5, mx + 1), np.linspace(-1, 0, my + 1), np.linspace(0, 1.5, mz + 1))
     return Problem(
         "ironing",
-        {"upper": curve_bottom(die, lambda x, z: ((x - 1.4) ** 2 + z**2) / 4), "lower": slab},
+        {"upper": curve_bottom(die, lambda x, z: ((x - 1.4) ** 2 + z**2) / 6), "lower": slab},
         {"upper": "bottom", "lower": "top"},
         {"upper": 10.0, "lower": 1.0},
-        [Stage({"upper.top": {"y": -0.06}}, 4), Stage({"upper.top": {"x": 2.0}}, 40)],
+        [Stage({"upper.top": {"y": -0.04}}, 4), Stage({"upper.top": {"x": 2.0}}, 40)],
         {"lower.bottom": "xyz", "upper.top": "xz", "upper.back": "z", "lower.back": "z"},
         "top",
         friction=0.2,
