@@ -20,7 +20,7 @@ import with_getfem
 from problems import PROBLEMS
 
 # Stiffness of contact over E/h, and the brick of GetFEM, that suit each code and problem best.
-PENALTY = {"cylinders, plastic": 10.0, "ironing": 10.0}
+PENALTY = {"blocks": 30.0, "cylinders, plastic": 10.0, "ironing": 10.0}
 SURFACE = {"blocks": 100.0, "ball": 10.0, "cylinders": 100.0, "cylinders, plastic": 100.0, "ironing": 10.0}
 GETFEM = {"ball": ("raytracing", 100.0), "cylinders": ("raytracing", 10.0)}
 
