@@ -1,4 +1,4 @@
-"""Runs a program on one thread with a limit of user CPU time, and measures time and memory of its process.
+"""Runs a program on one thread with a limit of CPU time, and measures time and memory of its process.
 
     python3 timed.py LIMIT COMMAND ..
 

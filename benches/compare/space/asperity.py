@@ -61,7 +61,7 @@ def run(program, problem, folder, limit, measure="mortar", penalty=100.0, solver
     (folder / "scene.toml").write_text(scene(problem, measure, penalty, solver))
     done = measured([program, "run", "scene.toml", "--out", "out", "--threads", "1", "--no-plots", "--force"], folder, limit)
     label = f"asperity, {measure}"
-    iterations = re.findall(r"(\d+) iterations", done.said)
+    iterations = re.findall(r"(\d+) iterations, \d+ fact", done.said)
     result = Result(label, done.user, done.wall, done.peak, int(iterations[-1]) if iterations else 0)
     if not done.ended or done.code:
         result.why = f"stopped after {limit:g} s" if not done.ended else done.said.strip()[-300:]
