@@ -3,22 +3,21 @@
 
 use crate::common::*;
 use asperity_contact::{
-    Interface, InterfaceSpec, MeasureKind, Mirror, Segment, SegmentKind, SlavePoint, Sliding, Status,
-    SurfaceNode,
+    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Status, SurfaceNode,
 };
 use asperity_fem::term::{Linearized, Restorable, Term};
 use asperity_friction::law::Law;
 use std::sync::Arc;
 
-type LawOption = Option<Arc<dyn Law>>;
+pub type LawOption = Option<Arc<dyn Law>>;
 
 /// Nodes and facets of one side.
-struct Side<const D: usize> {
-    x: Vec<[f64; D]>,
+pub struct Side<const D: usize> {
+    pub x: Vec<[f64; D]>,
     faces: Vec<Segment>,
 }
 
-fn interface_spec<const D: usize>(
+pub fn interface_spec<const D: usize>(
     slave: &Side<D>,
     master: &Side<D>,
     sliding: Sliding,
@@ -35,7 +34,7 @@ fn interface_spec<const D: usize>(
 }
 
 /// A line from x = a to b at height y with `n` segments of uneven length. With `up` the outward normal is +y.
-fn line_side(a: f64, b: f64, y: f64, n: usize, order: usize, up: bool, seed: u64) -> Side<2> {
+pub fn line_side(a: f64, b: f64, y: f64, n: usize, order: usize, up: bool, seed: u64) -> Side<2> {
     let mut noise = Noise::new(seed);
     let mut ends: Vec<f64> = (0..=n)
         .map(|i| {
@@ -75,7 +74,7 @@ fn add_middles(nodes: &mut Vec<usize>, x: &mut Vec<[f64; 3]>) {
 
 /// A unit square of n x n facets at height z, with outward normal +z if `up`. Its nodes are displaced by `noise` in the plane;
 /// those on the rim stay on it.
-fn square_side(kind: SegmentKind, n: usize, z: f64, up: bool, noise: f64, seed: u64) -> Side<3> {
+pub fn square_side(kind: SegmentKind, n: usize, z: f64, up: bool, noise: f64, seed: u64) -> Side<3> {
     let mut source = Noise::new(seed);
     let mut x: Vec<[f64; 3]> = Vec::new();
     for j in 0..=n {
@@ -280,7 +279,7 @@ fn scene<const D: usize>(
     (interface, second)
 }
 
-const KINDS: [SegmentKind; 5] =
+pub const KINDS: [SegmentKind; 5] =
     [SegmentKind::Tri3, SegmentKind::Quad4, SegmentKind::Tri6, SegmentKind::Quad8, SegmentKind::Quad9];
 
 fn laws() -> [LawOption; 3] {
@@ -338,60 +337,6 @@ fn tangent_is_the_derivative_of_the_residual_at_a_tip_that_both_sides_have() {
     let sides = [vec![face([0, 1, 3, 2]), face([2, 3, 5, 4])], vec![face([0, 6, 7, 1]), face([6, 8, 9, 7])]];
     let (mut interface, u) = parting(&x, &[2, 3, 4, 5], sides);
     assert_taylor(&mut interface, &u, 14);
-}
-
-#[test]
-fn tangent_is_the_derivative_of_the_residual_on_planes_of_symmetry() {
-    let planes = |x: &[f64]| {
-        let on = |axis: usize| x.get(axis).is_some_and(|c| c.abs() < 1e-9);
-        Mirror([on(0), x.len() == 3 && on(1), false])
-    };
-    for sliding in [Sliding::Small, Sliding::Finite] {
-        let (slave, master) =
-            (line_side(0.0, 2.0, 0.0, 4, 1, false, 31), line_side(0.0, 2.0, 0.0, 3, 1, true, 32));
-        assert_mirrored(&slave, &master, sliding, planes);
-        for kind in KINDS {
-            let side = |n, up, seed| square_side(kind, n, 0.0, up, 0.0, seed);
-            assert_mirrored(&side(3, false, 33), &side(2, true, 34), sliding, planes);
-        }
-    }
-}
-
-/// Asserts that the tangent with planes of symmetry is a derivative, and that no force acts across them at slave nodes that lie on
-/// them.
-fn assert_mirrored<const D: usize>(
-    slave: &Side<D>,
-    master: &Side<D>,
-    sliding: Sliding,
-    planes: impl Fn(&[f64]) -> Mirror,
-) {
-    let mut spec = interface_spec(slave, master, sliding, coulomb(), false);
-    let all: Vec<Mirror> = slave.x.iter().map(|x| planes(x)).collect();
-    assert!(all.iter().any(|m| m.0.contains(&true)));
-    if let MeasureKind::Mortar { mirrors, .. } = &mut spec.measure {
-        mirrors.clone_from(&all);
-    }
-    let by = |along: f64, down: f64| {
-        let mut by = [along; D];
-        by[D - 1] = -down;
-        vec![by; slave.x.len()]
-    };
-    let [first, second] = [by(0.01, 0.02), by(0.02, 0.03)].map(|moves| moved(&spec, 0.0, &moves, 2e-3, 3));
-    let mut interface = Interface::new(spec).unwrap();
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    assert_taylor(&mut interface, &second, 15);
-    residual(&mut interface, &second);
-    interface.accept();
-    let points = interface.points();
-    for (p, mirror) in all.iter().enumerate() {
-        for axis in (0..D).filter(|&axis| mirror.0[axis]) {
-            assert!(points.normal[p][axis] == 0.0, "{:?}", points.normal[p]);
-            assert!(points.shear[p][axis] == 0.0, "{p}");
-        }
-    }
 }
 
 #[test]

@@ -19,20 +19,12 @@ const UPRIGHT: f64 = 0.1;
 
 /// Finds the planes of symmetry of all mortar interfaces.
 pub fn apply<const D: usize>(assembly: &mut Assembly<'_, D>) {
+    if assembly.interfaces.iter().all(|i| i.measure != Measure::Mortar) {
+        return;
+    }
     let supports = Supports::new(&assembly.model, &assembly.stages);
     for planned in assembly.interfaces.iter_mut().filter(|i| i.measure == Measure::Mortar) {
-        let normals = slave_normals(&assembly.model, planned);
-        let of = |&(node, _): &(usize, f64)| {
-            let normal = &normals[&node];
-            let size = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
-            // Tractions of an initial stress are those on the normals of the faces themselves.
-            let tilt = if planned.pressed.is_some() { FLAT } else { UPRIGHT };
-            let ends =
-                |axis: usize| normal[axis].abs() < tilt * size && supports.mirrors(planned, node, axis);
-            Mirror(std::array::from_fn(|axis| axis < D && ends(axis)))
-        };
-        let mirrors: Vec<Mirror> = planned.slave.iter().map(of).collect();
-        planned.mirrors = if mirrors.iter().all(|m| *m == Mirror::default()) { Vec::new() } else { mirrors };
+        planned.mirrors = supports.mirrors(planned);
     }
 }
 
@@ -64,7 +56,49 @@ impl<'a, const D: usize> Supports<'a, D> {
         Self { model, still, free }
     }
 
-    /// True if the nodes' motion along an axis vanishes by a condition or on the axis of revolution.
+    /// Planes of symmetry through each slave point of an interface; empty if there are none.
+    fn mirrors(&self, planned: &PlannedInterface) -> Vec<Mirror> {
+        let planes = self.planes(planned);
+        if planes.is_empty() {
+            return Vec::new();
+        }
+        let normals = slave_normals(self.model, planned);
+        // Tractions of an initial stress are those on the normals of the faces themselves.
+        let tilt = if planned.pressed.is_some() { FLAT } else { UPRIGHT };
+        let of = |&(node, _): &(usize, f64)| {
+            let normal = &normals[&node];
+            let size = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+            let upright = |axis: usize| normal[axis].abs() < tilt * size;
+            let through = |axis: usize| {
+                let here = planes.iter().any(|&(a, place)| a == axis && self.is_at(node, axis, place));
+                here && self.free[node] && self.rests(node, axis) && upright(axis)
+            };
+            Mirror(std::array::from_fn(through))
+        };
+        planned.slave.iter().map(of).collect()
+    }
+
+    /// Planes that end the slave body and the master, by the axes normal to them and their places. The master's nodes there do not move
+    /// across them.
+    fn planes(&self, planned: &PlannedInterface) -> Vec<(usize, f64)> {
+        let slave = planned.slave.first().map(|point| point.0);
+        let Some(body) = self.model.bodies.iter().find(|b| slave.is_some_and(|node| b.nodes.contains(&node)))
+        else {
+            return Vec::new();
+        };
+        let (min, max) = bounds(&self.model.mesh.nodes[body.nodes.clone()]);
+        let ends = (0..D).flat_map(|axis| [(axis, min[axis], 1.0), (axis, max[axis], -1.0)]);
+        let master = || planned.master_faces.iter().flat_map(|face| &face.nodes).copied();
+        let ended = ends.filter(|&(axis, place, inward)| {
+            let on = |node: usize| self.is_at(node, axis, place);
+            let within = |node: usize| inward * (self.model.mesh.nodes[node][axis] - place) > 0.0;
+            master().any(on)
+                && master().all(|node| if on(node) { self.rests(node, axis) } else { within(node) })
+        });
+        ended.map(|(axis, place, _)| (axis, place)).collect()
+    }
+
+    /// True if a node's motion along an axis vanishes by a condition or on the axis of revolution.
     fn rests(&self, node: usize, axis: usize) -> bool {
         let on_axis = self.model.idealisation == Idealisation::Axisymmetric && axis == 0;
         self.still[node * D + axis] || (on_axis && self.is_at(node, axis, 0.0))
@@ -72,35 +106,5 @@ impl<'a, const D: usize> Supports<'a, D> {
 
     fn is_at(&self, node: usize, axis: usize, place: f64) -> bool {
         (self.model.mesh.nodes[node][axis] - place).abs() <= FLAT * self.model.scale
-    }
-
-    /// True if a plane of symmetry of both sides, normal to an axis, passes through a slave node.
-    fn mirrors(&self, planned: &PlannedInterface, node: usize, axis: usize) -> bool {
-        if !self.free[node] || !self.rests(node, axis) {
-            return false;
-        }
-        let place = self.model.mesh.nodes[node][axis];
-        let Some(body) = self.model.bodies.iter().find(|body| body.nodes.contains(&node)) else {
-            return false;
-        };
-        let (min, max) = bounds(&self.model.mesh.nodes[body.nodes.clone()]);
-        let near = |bound: f64| (bound - place).abs() <= FLAT * self.model.scale;
-        let inward = match (near(min[axis]), near(max[axis])) {
-            (true, false) => 1.0,
-            (false, true) => -1.0,
-            _ => return false,
-        };
-        let mut on_plane = false;
-        for &other in planned.master_faces.iter().flat_map(|face| &face.nodes) {
-            if self.is_at(other, axis, place) {
-                if !self.rests(other, axis) {
-                    return false;
-                }
-                on_plane = true;
-            } else if inward * (self.model.mesh.nodes[other][axis] - place) < 0.0 {
-                return false;
-            }
-        }
-        on_plane
     }
 }

@@ -6,7 +6,7 @@ use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 use std::fmt;
 use std::ops::Range;
 
-/// Sides of bodies, `BODY.SIDE`: one, or a list. There is at least one.
+/// Sides of bodies, `BODY.SIDE`: one, or a list. Empty where the key is not given; a list in a scene has at least one.
 #[derive(Clone, Debug, Default)]
 pub struct Sides {
     all: Vec<Spanned<String>>,
