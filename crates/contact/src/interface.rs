@@ -2,6 +2,7 @@
 
 mod augmented;
 mod event_limits;
+mod iterate;
 mod mixed;
 mod start;
 
@@ -11,7 +12,7 @@ use crate::enforce::{Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
-use crate::shear::{PreviousStep, Shear, TwoStep};
+use crate::shear::{PreviousStep, Shear, TrialSpring, TwoStep};
 use crate::shift::GapShift;
 use crate::spec::{Enforcement, InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
@@ -21,6 +22,7 @@ use asperity_fem::relative::RelativeDisplacements;
 use asperity_fem::term::{Augmented, Instant, Linearized, Objection, Pattern, Refusal, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
+use iterate::TractionIterates;
 use std::sync::Arc;
 
 /// Rounding of relative positions as a share of the scene's size. A gap or slip is a difference of averages over some tens of
@@ -74,6 +76,8 @@ pub struct Interface<const D: usize> {
     pub(crate) tangential_penalty: f64,
     pub(crate) multipliers: Option<Multipliers>,
     pub(crate) unknowns: Option<Box<Unknowns>>,
+    /// Tractions of iterates; `None` if the multipliers are unknowns of the system.
+    iterates: Option<TractionIterates>,
     /// Partings ([`Measure::partings`]) at which bonded points were tied \[m\]; `None` if points may separate.
     pub(crate) tied: Option<Vec<f64>>,
     /// Partings at the geometry last measured; kept for bonded points alone.
@@ -125,7 +129,10 @@ impl<const D: usize> Interface<D> {
         let (measure, projections) = build_measure(&spec)?;
         let (enforcement, each) = (spec.enforcement, if spec.law.is_some() { D } else { 1 });
         let touch = [spec.normal_penalty, spec.tangential_penalty].map(|e| TOUCH * spec.scale * e);
+        let exact = matches!(enforcement, Enforcement::AugmentedLagrangian { .. });
+        let iterates = (!exact).then(|| TractionIterates::new(&spec, measure.follows()));
         let mut interface = Self {
+            iterates,
             penalty: Penalty { stiffness: spec.normal_penalty, closure: TOUCH * spec.scale },
             tangential_penalty: spec.tangential_penalty,
             multipliers: Multipliers::from_enforcement(&spec.enforcement, n),
@@ -217,6 +224,9 @@ impl<const D: usize> Interface<D> {
     /// called between steps.
     pub fn set_law(&mut self, law: Option<Arc<dyn Law>>) {
         let n = self.slave.len();
+        if let Some(iterates) = &mut self.iterates {
+            iterates.set_law(law.as_deref());
+        }
         self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, self.touch, n));
         self.set_damping(self.damping);
         self.motion = StatePair::new(Motion::new(n));
@@ -346,7 +356,10 @@ impl<const D: usize> Interface<D> {
     /// Tractions and their derivatives at the state of the last residual.
     pub(crate) fn tractions(&self) -> Tractions<'_> {
         Tractions {
-            normal: &self.contact.trial,
+            normal: match &self.iterates {
+                Some(iterates) if iterates.runs() => &iterates.normal,
+                _ => &self.contact.trial,
+            },
             shear: self.shear.as_ref().map(|s| s.points.as_slice()),
             stiffness: self.tangential_penalty,
         }
@@ -356,6 +369,7 @@ impl<const D: usize> Interface<D> {
     fn respond(&mut self, dt: f64) -> Result<(), Refusal> {
         self.check_bonds()?;
         self.enforce();
+        self.close();
         let past = match (self.rule, self.previous_dt) {
             (TimeRule::Bdf2, Some(previous)) => Some(PreviousStep {
                 two_step: TwoStep::new(dt, previous),
@@ -368,8 +382,12 @@ impl<const D: usize> Interface<D> {
             let step = &mut self.motion.trial.step;
             self.work.law_calls += 1;
             let increment = &self.geometry.increment;
-            let from = tangential(self.multipliers.as_ref());
-            let answer = shear.respond(from, &self.contact.trial, increment, dt, past, step);
+            let multiplier = tangential(self.multipliers.as_ref());
+            let start = multiplier.unwrap_or(&shear.committed.traction);
+            let softer = self.iterates.as_mut().and_then(|iterates| iterates.trial_spring(start));
+            let spring = TrialSpring { from: multiplier, stiffness: self.tangential_penalty };
+            let answer =
+                shear.respond(softer.unwrap_or(spring), &self.contact.trial, increment, dt, past, step);
             if let Err(failure) = answer {
                 self.note_softness(&failure);
                 return Err(self.law_refusal(failure));
@@ -382,8 +400,25 @@ impl<const D: usize> Interface<D> {
                 *step = if c.closed { *du } else { [0.0; 2] };
             }
         }
+        if let Some(iterates) = &mut self.iterates {
+            let shear = self.shear.as_mut().map(|s| s.points.as_mut_slice());
+            iterates.reduce(&self.contact.trial, shear);
+        }
         self.accumulate();
         Ok(())
+    }
+
+    /// Decides which points are closed by the tractions of the iterate.
+    fn close(&mut self) {
+        let Some(iterates) = self.iterates.as_mut().filter(|iterates| iterates.runs()) else { return };
+        let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice()).or(self.pressed.as_deref());
+        let (gap, shift) = (&self.geometry.gap, &self.shift);
+        let stiffness = self.penalty.stiffness;
+        let push = |p: usize| {
+            let gap = shift.as_ref().map_or(gap[p], |shift| shift.gap(p));
+            multiplier.map_or(0.0, |m| m[p]) - stiffness * gap
+        };
+        iterates.close(push, stiffness * self.penalty.closure, &mut self.contact.trial);
     }
 
     /// Accumulates the increments into the trial totals of relative displacement and slip.
@@ -399,18 +434,29 @@ impl<const D: usize> Interface<D> {
     /// from the multipliers.
     pub(crate) fn forces(&mut self) {
         let unknown = self.multipliers.as_ref().filter(|_| self.unknowns.is_some());
-        let shear = self.shear.as_ref().map(|s| match unknown {
-            Some(multipliers) => &multipliers.shear,
-            None => &s.trial.traction,
-        });
-        for (p, c) in self.contact.trial.iter().enumerate() {
-            let normal = unknown.map_or(c.traction, |m| m.normal[p]);
+        for p in 0..self.slave.len() {
+            let shear = |t: &Vec<[f64; 2]>| t.get(p).copied().unwrap_or_default();
+            let (normal, shear) = if let Some(multipliers) = unknown {
+                (multipliers.normal[p], shear(&multipliers.shear))
+            } else if let Some(iterates) = self.iterates.as_ref().filter(|iterates| iterates.runs()) {
+                (iterates.force[p].normal, iterates.force[p].shear)
+            } else {
+                let t = self.shear.as_ref().map(|s| s.trial.traction[p]);
+                (self.contact.trial[p].traction, t.unwrap_or_default())
+            };
             let mut f = scaled(&self.geometry.normal[p], normal);
-            if let Some(shear) = shear {
-                axpy(&mut f, -1.0, &self.geometry.tangential(p, &shear[p]));
-            }
+            axpy(&mut f, -1.0, &self.geometry.tangential(p, &shear));
             self.force[p] = f;
         }
+    }
+
+    /// Takes a direction of Newton's method from the configuration last measured.
+    fn direct_iterates(&mut self, along: &[f64]) {
+        let Some(iterates) = &mut self.iterates else { return };
+        Self::gather(&self.nodes, along, &mut self.du);
+        self.measure.slides(&self.geometry, &self.du, &mut self.slides);
+        let shear = self.shear.as_ref().map(|s| s.points.as_slice());
+        iterates.direct(&self.slides, &self.contact.trial, shear);
     }
 
     /// Commits the trial history. Tangential components are transformed with frames that change.
@@ -606,12 +652,33 @@ impl<const D: usize> Term for Interface<D> {
         self.objects()
     }
 
+    fn unsettled(&self) -> f64 {
+        self.iterates.as_ref().map_or(0.0, |iterates| iterates.unsettled(&self.fields.area))
+    }
+
+    fn direct(&mut self, along: &[f64]) {
+        self.direct_iterates(along);
+    }
+
+    fn advance(&mut self, length: f64) {
+        if let Some(iterates) = &mut self.iterates {
+            iterates.advance(length);
+        }
+    }
+
+    fn restart(&mut self) {
+        if let Some(iterates) = &mut self.iterates {
+            iterates.restart();
+        }
+    }
+
     fn error(&mut self) -> f64 {
         self.shear.as_mut().map_or(0.0, |shear| shear.error(&self.contact.committed, self.trial_dt))
     }
 
     fn accept(&mut self) {
         self.soft = None;
+        self.restart();
         self.adopt_multipliers();
         self.commit();
         self.refresh();
@@ -619,6 +686,7 @@ impl<const D: usize> Term for Interface<D> {
 
     fn reject(&mut self) {
         self.soft = self.softest().or(self.soft);
+        self.restart();
         self.u.trial.copy_from_slice(&self.u.committed);
         self.contact.trial.copy_from_slice(&self.contact.committed);
         self.motion.trial.copy_from(&self.motion.committed);

@@ -152,6 +152,15 @@ impl PreviousStep<'_> {
     }
 }
 
+/// Tractions from which trials start, and the spring along which they grow.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TrialSpring<'a> {
+    /// Start of each point \[Pa\]; the committed tractions if `None`.
+    pub from: Option<&'a [[f64; 2]]>,
+    /// Stiffness \[Pa/m\].
+    pub stiffness: f64,
+}
+
 /// Friction on an interface.
 #[derive(Clone, Debug)]
 pub(crate) struct Shear {
@@ -193,18 +202,18 @@ impl Shear {
         self.law.states()
     }
 
-    /// Computes the implicit response of the law to the tangential increments from the tractions `from` (the committed ones if
-    /// `None`). Writes the trial history, the points of the tangent and the slip increments `step`.
+    /// Computes the implicit response of the law to the tangential increments behind a spring. Writes the trial history, the points
+    /// of the tangent and the slip increments `step`.
     pub(crate) fn respond(
         &mut self,
-        from: Option<&[[f64; 2]]>,
+        spring: TrialSpring<'_>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
         dt: f64,
         previous: Option<PreviousStep<'_>>,
         step: &mut [[f64; 2]],
     ) -> Result<(), Failure> {
-        self.gather(from, normal, increment, previous);
+        self.gather(spring, normal, increment, previous);
         let s = &mut self.slices;
         s.size_answers(self.law.states());
         if !s.index.is_empty() {
@@ -215,7 +224,7 @@ impl Shear {
                 points: &s.index,
                 normal: &s.normal,
                 trial: &s.trial,
-                stiffness: self.stiffness,
+                stiffness: spring.stiffness,
                 dt,
                 damping: self.damping,
                 lag,
@@ -238,13 +247,13 @@ impl Shear {
 
     fn gather(
         &mut self,
-        from: Option<&[[f64; 2]]>,
+        spring: TrialSpring<'_>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
         previous: Option<PreviousStep<'_>>,
     ) {
         let k = self.law.states();
-        let from = from.unwrap_or(&self.committed.traction);
+        let from = spring.from.unwrap_or(&self.committed.traction);
         let s = &mut self.slices;
         s.clear();
         for (p, contact) in normal.iter().enumerate() {
@@ -252,7 +261,7 @@ impl Shear {
                 continue;
             }
             let mut trial = from[p];
-            axpy(&mut trial, self.stiffness, &increment[p]);
+            axpy(&mut trial, spring.stiffness, &increment[p]);
             let touches = contact.traction <= self.touch[0] && norm(&trial) <= self.touch[1];
             let size = if touches { 0.0 } else { norm(&trial) };
             let direction = if size > 0.0 { scaled(&trial, size.recip()) } else { [0.0; 2] };

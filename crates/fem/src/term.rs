@@ -79,6 +79,22 @@ pub trait Term {
         None
     }
 
+    /// Largest difference between the term's own unknowns and the forces of the last residual \[N\]; 0 where it has none. See
+    /// [`Term::direct`].
+    fn unsettled(&self) -> f64 {
+        0.0
+    }
+
+    /// Takes the direction of an iteration from the displacements of the last residual, for unknowns of the term's own that are
+    /// eliminated from the system.
+    fn direct(&mut self, _along: &[f64]) {}
+
+    /// Moves such unknowns to a length along that direction; residuals that follow are at that length.
+    fn advance(&mut self, _length: f64) {}
+
+    /// Drops such unknowns until the next direction.
+    fn restart(&mut self) {}
+
     /// Estimated error that the step leaves in friction coefficients \[-\]; 0 where none follows rates.
     fn error(&mut self) -> f64 {
         0.0

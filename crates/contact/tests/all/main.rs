@@ -7,6 +7,7 @@ mod common;
 mod curved;
 mod enforcement;
 mod forward;
+mod iterates;
 mod mirrors;
 mod mortar;
 mod physics;

@@ -333,6 +333,7 @@ impl Implicit {
         counts: &mut Operations,
     ) -> Result<(), Failure> {
         u.copy_from_slice(&progress.best_u);
+        terms.iter_mut().for_each(|term| term.restart());
         progress.moved = f64::INFINITY;
         self.evaluate(terms, u, at, counts)
     }
@@ -481,15 +482,15 @@ impl Implicit {
     ) -> Result<f64, Failure> {
         let along = &direction.along;
         let (start, slope) = (self.norm()?, work(&self.balance.r, along));
-        let reached = moved(u, along, 1.0);
-        let full = self.trial(terms, &reached, along, at, counts);
+        terms.iter_mut().for_each(|term| term.direct(along));
+        let full = self.trial(terms, u, along, 1.0, at, counts);
         let lower = full.norm <= start * (1.0 - DECREASE);
         let taken = trusted && (lower || full.norm <= NONMONOTONE * start);
         let strides = direction.free && full.slope < 0.0 && !lower;
         let whole = taken || full.slope.abs() <= 0.5 * slope.abs() || slope < 0.0 && full.slope < 0.0;
         if !strides && (whole || slope >= 0.0 && lower) {
             // The terms answered there last.
-            *u = reached;
+            *u = moved(u, along, 1.0);
             std::mem::swap(&mut self.balance, &mut self.trial);
             return Ok(1.0);
         }
@@ -497,14 +498,13 @@ impl Implicit {
             self.stride(terms, u, along, full.slope, at, counts)
         } else if slope < 0.0 {
             let (from, to) = (line::End { at: 0.0, slope }, line::End { at: 1.0, slope: full.slope });
-            line::root(from, to, !trusted, |s| {
-                self.trial(terms, &moved(u, along, s), along, at, counts).slope
-            })
+            line::root(from, to, !trusted, |s| self.trial(terms, u, along, s, at, counts).slope)
         } else {
             self.backtrack(terms, u, along, at, counts)?
         };
         if length.is_finite() {
             *u = moved(u, along, length);
+            terms.iter_mut().for_each(|term| term.advance(length));
             self.evaluate(terms, u, at, counts)?;
         }
         Ok(length)
@@ -524,10 +524,10 @@ impl Implicit {
         let mut from = line::End { at: 1.0, slope };
         while STRIDE * from.at * largest(along) <= self.extent {
             let s = STRIDE * from.at;
-            let g = self.trial(terms, &moved(u, along, s), along, at, counts).slope;
+            let g = self.trial(terms, u, along, s, at, counts).slope;
             if g.is_nan() || g >= 0.0 {
                 return line::root(from, line::End { at: s, slope: g }, true, |s| {
-                    self.trial(terms, &moved(u, along, s), along, at, counts).slope
+                    self.trial(terms, u, along, s, at, counts).slope
                 });
             }
             from = line::End { at: s, slope: g };
@@ -549,7 +549,7 @@ impl Implicit {
         let mut length = 1.0;
         for _ in 0..MOST_HALVINGS {
             length *= 0.5;
-            let norm = self.trial(terms, &moved(u, along, length), along, at, counts).norm;
+            let norm = self.trial(terms, u, along, length, at, counts).norm;
             if norm.is_finite() && best.is_none_or(|(b, _)| norm < b) {
                 best = Some((norm, length));
             }
@@ -561,16 +561,18 @@ impl Implicit {
         best.map(|(_, length)| length).ok_or_else(endless)
     }
 
-    /// Residual at `u` and its work along a direction; NaN if a term refuses the state.
+    /// Residual at a length along a direction from `u`, and its work along it; NaN if a term refuses the state.
     fn trial(
         &mut self,
         terms: &mut [&mut dyn Linearized],
         u: &[f64],
         along: &[f64],
+        length: f64,
         at: Instant,
         counts: &mut Operations,
     ) -> Trial {
-        match self.trial.evaluate(terms, u, at, counts) {
+        terms.iter_mut().for_each(|term| term.advance(length));
+        match self.trial.evaluate(terms, &moved(u, along, length), at, counts) {
             Ok(()) => Trial {
                 norm: self.trial.largest_residual(self.system.equations()),
                 slope: work(&self.trial.r, along),

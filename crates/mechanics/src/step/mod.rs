@@ -179,6 +179,8 @@ pub struct Balance {
     pub r: Vec<f64>,
     /// Largest component of a single term's forces, which the residual is compared with.
     pub largest_force: f64,
+    /// Largest [`Term::unsettled`].
+    unsettled: f64,
     part: Vec<f64>,
 }
 
@@ -198,10 +200,12 @@ impl Balance {
         self.r.clear();
         self.r.resize(u.len(), 0.0);
         self.largest_force = 0.0;
+        self.unsettled = 0.0;
         for term in terms {
             self.part.clear();
             self.part.resize(u.len(), 0.0);
             term.residual(u, at, &mut self.part)?;
+            self.unsettled = self.unsettled.max(term.unsettled());
             for (sum, &value) in self.r.iter_mut().zip(&self.part) {
                 *sum += value;
                 self.largest_force = self.largest_force.max(value.abs());
@@ -215,8 +219,8 @@ impl Balance {
     pub fn largest_residual(&self, equations: &Equations) -> f64 {
         let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         if equations.tied.is_empty() {
-            return equations.free.iter().map(|&d| self.r[d].abs()).fold(0.0, larger);
+            return equations.free.iter().map(|&d| self.r[d].abs()).fold(self.unsettled, larger);
         }
-        equations.gather(&self.r).into_iter().map(f64::abs).fold(0.0, larger)
+        equations.gather(&self.r).into_iter().map(f64::abs).fold(self.unsettled, larger)
     }
 }

@@ -1,10 +1,14 @@
 //! Intersection of convex polygons in a plane (Sutherland and Hodgman 1974), with derivatives if the numbers carry them.
 
 use super::scalar::Scalar;
+use crate::vector::dot;
 
 /// Largest number of corners. The intersection of two quadrilaterals has at most 8, since each cut adds one; two are spare for
 /// rounding.
 const MOST_CORNERS: usize = 10;
+
+/// Sine of the angle between two edges below which their intersection is dominated by rounding: it loses half of the digits.
+pub(super) const PARALLEL: f64 = 1e-8;
 
 /// A convex polygon, counter-clockwise.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +81,8 @@ impl<T: Scalar> Polygon<T> {
             let t = side(to);
             if (s.value() < 0.0) != (t.value() < 0.0) {
                 let c = s / (s - t);
-                out.push(std::array::from_fn(|i| from[i] + c * (to[i] - from[i])));
+                let share = if parallel(a, b, &from, to) { T::constant(c.value()) } else { c };
+                out.push(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])));
             }
             if t.value() >= 0.0 {
                 out.push(*to);
@@ -86,6 +91,15 @@ impl<T: Scalar> Polygon<T> {
         }
         out
     }
+}
+
+/// True if the edges from `from` to `to` and from `a` to `b` have nearly one direction. Where they cross is then a material point of
+/// the first.
+fn parallel<T: Scalar>(a: &[T; 2], b: &[T; 2], from: &[T; 2], to: &[T; 2]) -> bool {
+    let along = |p: &[T; 2], q: &[T; 2]| [q[0].value() - p[0].value(), q[1].value() - p[1].value()];
+    let (d, e) = (along(from, to), along(a, b));
+    let (product, square) = (d[0] * e[1] - d[1] * e[0], dot(&d, &d) * dot(&e, &e));
+    product * product <= PARALLEL * PARALLEL * square
 }
 
 /// Twice the area of the triangle a, b, c, positive counter-clockwise.

@@ -1,6 +1,7 @@
 //! Intersection of convex polygons whose corners record the nodes on which they depend. `clip` does the same for numbers that
 //! carry derivatives.
 
+use super::clip::PARALLEL;
 use super::clip::twice_area;
 use crate::vector::{dot, sub};
 
@@ -30,9 +31,6 @@ pub(super) struct Polygon {
     pub corners: usize,
     pub at: [Corner; Polygon::MOST],
 }
-
-/// Sine of the angle between two edges below which their intersection is dominated by rounding: it loses half of the digits.
-const PARALLEL: f64 = 1e-8;
 
 impl Polygon {
     /// Largest number of corners. The intersection of two quadrilaterals has at most 8, since each cut adds one; two are spare
