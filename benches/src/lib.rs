@@ -139,7 +139,7 @@ fn spec<const D: usize>(
         enforcement: Enforcement::Penalty,
         normal_penalty: 1e12,
         tangential_penalty: 1e12,
-        bodies: 1e10,
+        young_per_size: 1e10,
         law,
         scale: 1e3,
         rate_floor: f64::MIN_POSITIVE,

@@ -435,9 +435,8 @@ impl<const D: usize> Interface<D> {
     pub(crate) fn forces(&mut self) {
         let unknown = self.multipliers.as_ref().filter(|_| self.unknowns.is_some());
         for p in 0..self.slave.len() {
-            let shear = |t: &Vec<[f64; 2]>| t.get(p).copied().unwrap_or_default();
             let (normal, shear) = if let Some(multipliers) = unknown {
-                (multipliers.normal[p], shear(&multipliers.shear))
+                (multipliers.normal[p], multipliers.shear.get(p).copied().unwrap_or_default())
             } else if let Some(iterates) = self.iterates.as_ref().filter(|iterates| iterates.runs()) {
                 (iterates.force[p].normal, iterates.force[p].shear)
             } else {

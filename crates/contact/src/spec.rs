@@ -138,7 +138,7 @@ pub struct InterfaceSpec<const D: usize> {
     /// Tangential penalty E_t \[Pa/m\]; unused without a law.
     pub tangential_penalty: f64,
     /// Young's modulus over the element size of the softer side \[Pa/m\], which weighs motions against tractions in iterations.
-    pub bodies: f64,
+    pub young_per_size: f64,
     /// Friction; `None` = frictionless.
     pub law: Option<Arc<dyn Law>>,
     /// Size of the scene \[m\], which scales the closure tolerance.

@@ -51,7 +51,7 @@ pub fn spec<const D: usize>(
         enforcement: planned.enforced.declared(unknowns),
         normal_penalty: planned.normal_penalty,
         tangential_penalty: planned.tangential_penalty,
-        bodies: planned.bodies,
+        young_per_size: planned.young_per_size,
         law: planned.law.clone(),
         scale: model.scale,
         rate_floor: RATE_FLOOR * largest_rate,

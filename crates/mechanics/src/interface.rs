@@ -41,7 +41,7 @@ pub struct PlannedInterface {
     /// Tangential penalty E_t \[Pa/m\]; 0 without friction.
     pub tangential_penalty: f64,
     /// Young's modulus over the element size of the softer side \[Pa/m\].
-    pub bodies: f64,
+    pub young_per_size: f64,
     /// Enforcement of the constraints.
     pub enforced: PlannedEnforcement,
     /// Number of multipliers that are unknowns of the system.

@@ -68,7 +68,7 @@ fn spec(plan: &Plan<2>, planned: &PlannedInterface, unknowns: usize) -> Interfac
         },
         normal_penalty: planned.normal_penalty,
         tangential_penalty: planned.tangential_penalty,
-        bodies: planned.bodies,
+        young_per_size: planned.young_per_size,
         law: planned.law.clone(),
         scale: plan.problem.model.scale,
         rate_floor: 0.0,

@@ -57,14 +57,14 @@ struct Stiffnesses {
     normal: f64,
     tangential: f64,
     /// E/h of the softer side.
-    bodies: f64,
+    young_per_size: f64,
 }
 
 /// Tractions of the iterates of a step. The symbols are those of the module.
 #[derive(Clone, Debug)]
 pub(crate) struct TractionIterates {
     stiffness: Stiffnesses,
-    /// True if gaps are not linear in displacements, so that normal tractions are unknowns as well.
+    /// True if gaps are not linear in displacements, so that normal tractions are unknowns whatever the law.
     follows: bool,
     /// α_n and α_t of the present law.
     share: [f64; 2],
@@ -91,7 +91,7 @@ impl TractionIterates {
             stiffness: Stiffnesses {
                 normal: spec.normal_penalty,
                 tangential: spec.tangential_penalty,
-                bodies: spec.bodies,
+                young_per_size: spec.young_per_size,
             },
             follows,
             share: [1.0; 2],
@@ -110,9 +110,9 @@ impl TractionIterates {
     /// Chooses α for a law. A law whose strength follows slip may have no answer behind a soft spring, and one that follows rates
     /// has no kink.
     pub fn set_law(&mut self, law: Option<&dyn Law>) {
-        let Stiffnesses { normal, tangential, bodies } = self.stiffness;
+        let Stiffnesses { normal, tangential, young_per_size } = self.stiffness;
         let plastic = |law: &dyn Law| law.has_elastic_domain() && law.states() == 0;
-        let softer = |penalty: f64| if penalty > bodies { bodies / penalty } else { 1.0 };
+        let softer = |penalty: f64| if penalty > young_per_size { young_per_size / penalty } else { 1.0 };
         let bonded = law.is_some_and(|law| law.bonded());
         let yields = law.is_some_and(plastic);
         self.share = [

@@ -235,7 +235,7 @@ pub fn spec<const D: usize>(
         enforcement: Enforcement::Penalty,
         normal_penalty: 1000.0,
         tangential_penalty: 700.0,
-        bodies: 10.0,
+        young_per_size: 10.0,
         law,
         scale: 1.0,
         rate_floor: 1e-12,

@@ -65,7 +65,7 @@ pub fn plan<const D: usize>(
     penalty::check(name, spec, &softer)?;
     let planned = PlannedInterface {
         name: name.to_string(),
-        bodies: softer.young_per_size,
+        young_per_size: softer.young_per_size,
         enforced,
         unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
         slave,

@@ -1,8 +1,7 @@
 //! Intersection of convex polygons whose corners record the nodes on which they depend. `clip` does the same for numbers that
 //! carry derivatives.
 
-use super::clip::PARALLEL;
-use super::clip::twice_area;
+use super::clip::{PARALLEL, twice_area};
 use crate::vector::{dot, sub};
 
 /// Pair of nodes: an edge of a facet and the line through it.
