@@ -85,8 +85,6 @@ pub(crate) struct TractionIterates {
 
 impl TractionIterates {
     pub fn new<const D: usize>(spec: &InterfaceSpec<D>, follows: bool) -> Self {
-        let n = spec.slave.len();
-        let zero = || vec![PointTraction::default(); n];
         let mut iterates = Self {
             stiffness: Stiffnesses {
                 normal: spec.normal_penalty,
@@ -96,12 +94,12 @@ impl TractionIterates {
             follows,
             share: [1.0; 2],
             length: None,
-            base: zero(),
-            change: zero(),
-            present: zero(),
-            force: zero(),
-            normal: vec![NormalPoint::default(); n],
-            from: vec![[0.0; 2]; n],
+            base: Vec::new(),
+            change: Vec::new(),
+            present: Vec::new(),
+            force: Vec::new(),
+            normal: Vec::new(),
+            from: Vec::new(),
         };
         iterates.set_law(spec.law.as_deref());
         iterates
@@ -120,6 +118,11 @@ impl TractionIterates {
             if yields && !bonded { softer(tangential) } else { 1.0 },
         ];
         self.restart();
+    }
+
+    /// True if iterates differ from those of the penalties under the present law.
+    pub fn differ(&self) -> bool {
+        self.share != [1.0; 2]
     }
 
     /// True once tractions are unknowns.
@@ -142,9 +145,6 @@ impl TractionIterates {
     /// Takes a direction, along which gaps and tangential increments change by `slides`, with the points of the tangent from which
     /// it was found.
     pub fn direct(&mut self, slides: &Slides, contact: &[NormalPoint], shear: Option<&[ShearPoint]>) {
-        if self.share == [1.0; 2] {
-            return;
-        }
         if !self.runs() {
             self.start(contact, shear);
         }
@@ -171,6 +171,12 @@ impl TractionIterates {
 
     /// Starts from the tractions of the penalties.
     fn start(&mut self, contact: &[NormalPoint], shear: Option<&[ShearPoint]>) {
+        let n = contact.len();
+        for v in [&mut self.base, &mut self.change, &mut self.present, &mut self.force] {
+            v.resize(n, PointTraction::default());
+        }
+        self.normal.resize(n, NormalPoint::default());
+        self.from.resize(n, [0.0; 2]);
         for (p, c) in contact.iter().enumerate() {
             let shear = shear.map_or([0.0; 2], |shear| shear[p].traction);
             self.force[p] = PointTraction { normal: c.traction, shear };

@@ -32,12 +32,7 @@ fn settled<const D: usize>(
 ) -> (Interface<D>, Vec<f64>) {
     let first = moved(&spec, angle, &moves[0], 1e-3, 1);
     let second = moved(&spec, angle, &moves[1], 5e-3, 2);
-    let mut interface = Interface::new(spec).unwrap();
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    (interface, second)
+    second_step(Interface::new(spec).unwrap(), &first, second)
 }
 
 fn laws() -> [LawOption; 3] {

@@ -1,7 +1,8 @@
 //! Tractions as unknowns of Newton's method: the tangent, the solution, and the iterations that they save.
 
 use crate::common::*;
-use asperity_contact::{Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, Sliding};
+use crate::enforcement::{LINE, PLATE, mortar};
+use asperity_contact::{Enforcement, Interface, InterfaceSpec, SegmentKind, Sliding};
 use asperity_fem::term::{Augmented, Linearized, Term};
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::law::Law;
@@ -18,38 +19,10 @@ fn plastic(mu: f64) -> LawOption {
     Some(Arc::new(Coulomb::new(mu, None).unwrap()))
 }
 
-/// Motions of the slaves: a committed first contact, then stick, slip, slip the other way, open.
-const LINE: [[[f64; 2]; 4]; 2] = [
-    [[0.01, -0.10], [0.0, -0.08], [0.0, -0.07], [0.0, -0.05]],
-    [[0.02, -0.11], [0.25, -0.10], [-0.35, -0.09], [0.0, 0.25]],
-];
-
-const PLATE: [[[f64; 3]; 5]; 2] = [
-    [[0.01, 0.0, -0.10], [0.0, 0.0, -0.08], [0.0, 0.0, -0.07], [0.0, 0.0, -0.05], [0.0, 0.0, -0.05]],
-    [[0.02, 0.01, -0.11], [0.2, 0.1, -0.10], [-0.15, 0.2, -0.09], [0.0, 0.1, 0.3], [0.2, 0.25, -0.07]],
-];
-
-fn mortar<const D: usize>(mut spec: InterfaceSpec<D>) -> InterfaceSpec<D> {
-    let (kind, faces) = if D == 2 {
-        (SegmentKind::Seg2, vec![vec![7, 6], vec![6, 5], vec![5, 4]])
-    } else {
-        spec.slave.truncate(4);
-        (SegmentKind::Quad4, vec![vec![9, 11, 12, 10]])
-    };
-    let faces = faces.into_iter().map(|nodes| Segment { kind, nodes }).collect();
-    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false, mirrors: Vec::new() };
-    spec
-}
-
 /// An interface after its first motion, with the displacements of the second.
 fn case<const D: usize>(spec: InterfaceSpec<D>, moves: [&[[f64; D]]; 2]) -> (Interface<D>, Vec<f64>) {
     let [first, second] = [0, 1].map(|k| moved(&spec, 0.7, moves[k], 1e-3, 1 + k as u64));
-    let mut interface = Interface::new(spec).unwrap();
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    (interface, second)
+    second_step(Interface::new(spec).unwrap(), &first, second)
 }
 
 /// Makes the tractions at `u` unknowns, which do not change along a direction of nothing.

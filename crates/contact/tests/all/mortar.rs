@@ -271,12 +271,7 @@ fn scene<const D: usize>(
     let moves =
         |k: usize| -> Vec<[f64; D]> { slave.x.iter().map(|x| motion(&rotate(x, -angle), k)).collect() };
     let (first, second) = (moved(&spec, angle, &moves(0), 1e-3, 1), moved(&spec, angle, &moves(1), 1e-3, 2));
-    let mut interface = Interface::new(spec).unwrap();
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    (interface, second)
+    second_step(Interface::new(spec).unwrap(), &first, second)
 }
 
 pub const KINDS: [SegmentKind; 5] =
@@ -317,12 +312,7 @@ fn parting<const D: usize>(
         vec![by; slave.len()]
     };
     let [first, second] = [by(0.01, 0.02), by(0.06, 0.03)].map(|moves| moved(&spec, 0.0, &moves, 5e-3, 3));
-    let mut interface = Interface::new(spec).unwrap();
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    (interface, second)
+    second_step(Interface::new(spec).unwrap(), &first, second)
 }
 
 #[test]

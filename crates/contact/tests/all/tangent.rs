@@ -33,11 +33,7 @@ fn line_case(sliding: Sliding, law: LawOption, rule: TimeRule, angle: f64) -> (I
     let second = moved(&spec, angle, &LINE.1, 1e-3, 2);
     let mut interface = Interface::new(spec).unwrap();
     interface.set_time_rule(rule);
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    (interface, second)
+    second_step(interface, &first, second)
 }
 
 fn plate_case(
@@ -52,11 +48,7 @@ fn plate_case(
     let second = moved(&spec, angle, &PLATE.1, 1e-3, 2);
     let mut interface = Interface::new(spec).unwrap();
     interface.set_time_rule(rule);
-    interface.prepare(&first).unwrap();
-    residual(&mut interface, &first);
-    interface.accept();
-    interface.prepare(&second).unwrap();
-    (interface, second)
+    second_step(interface, &first, second)
 }
 
 #[test]

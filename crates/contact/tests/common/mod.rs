@@ -390,3 +390,16 @@ pub fn asymmetries<const D: usize>((mut interface, u): (Interface<D>, Vec<f64>))
     interface.rate(AT, &mut rate, &mut vec![0.0; u.len()]).unwrap();
     [consistent, asymmetry(&pattern, &rate)]
 }
+
+/// Interface after a first step to the displacements `first`, prepared for `second`, which are also returned.
+pub fn second_step<const D: usize>(
+    mut interface: Interface<D>,
+    first: &[f64],
+    second: Vec<f64>,
+) -> (Interface<D>, Vec<f64>) {
+    interface.prepare(first).unwrap();
+    residual(&mut interface, first);
+    interface.accept();
+    interface.prepare(&second).unwrap();
+    (interface, second)
+}

@@ -214,7 +214,7 @@ impl Balance {
         Ok(())
     }
 
-    /// Largest residual of an equation; NaN if any entry is.
+    /// Largest residual of an equation, or of those that terms eliminated; NaN if any entry is.
     #[must_use]
     pub fn largest_residual(&self, equations: &Equations) -> f64 {
         let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
