@@ -42,7 +42,7 @@ impl System {
             Store::Flexibility(store) => Some(SymmetricPart::from_dense(&store.matrix()?)),
             Store::Sparse(store) => store.map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix())),
             Store::Preconditioned(store) => {
-                store.exact().map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix()))
+                store.matrix().map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix()))
             }
             Store::Iterative(_) => None,
         }

@@ -25,7 +25,7 @@ use flexibility::{FlexibilityStore, Part};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use memory::Memory;
-use preconditioned::PreconditionedStore;
+use preconditioned::{PreconditionedStore, Solution};
 use rayon::prelude::*;
 use std::convert::Infallible;
 pub use symmetry::Symmetry;
@@ -359,7 +359,7 @@ impl System {
         let (diagonal, unheld) = match &self.store {
             Store::Dense(store) => (store.diagonal(), store.empty_column()),
             Store::Sparse(store) => (store.diagonal(), store.empty_column()),
-            Store::Preconditioned(store) => (store.exact().diagonal(), store.exact().empty_column()),
+            Store::Preconditioned(store) => (store.matrix().diagonal(), store.matrix().empty_column()),
             // Pairs may hold what is not held otherwise: the solution tells.
             Store::Flexibility(_) | Store::Iterative(_) => return Ok(()),
         };
@@ -390,12 +390,34 @@ impl System {
         }
     }
 
+    /// Solves `K x = rhs` in place over the free equations with the tangents of `terms`. Returns the number of assemblies.
+    ///
+    /// # Errors
+    /// As [`System::factor_tangent`] and [`System::solve`].
+    pub fn solve_tangent(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        rhs: &mut [f64],
+    ) -> Result<usize, FemError> {
+        let mut assemblies = usize::from(self.factor_tangent(terms)?);
+        if !self.attempt(rhs, true)? {
+            assemblies += usize::from(self.factor_tangent(terms)?);
+            self.attempt(rhs, false)?;
+        }
+        Ok(assemblies)
+    }
+
     /// Solves `K x = rhs` in place over the free equations.
     ///
     /// # Errors
     /// [`FemError::Unheld`] when the matrix was numerically singular, which LU does not notice before.
     /// [`FemError::NotConverged`] of the iterative method.
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), FemError> {
+        self.attempt(rhs, false).map(|_| ())
+    }
+
+    /// Solves in place. With `again` it may return false instead, where another assembly costs less.
+    fn attempt(&mut self, rhs: &mut [f64], again: bool) -> Result<bool, FemError> {
         let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let load = size(rhs);
         let solved = match &mut self.store {
@@ -409,12 +431,17 @@ impl System {
                     true
                 }
             },
-            Store::Preconditioned(store) => match store.solve(rhs)? {
+            Store::Preconditioned(store) => match store.solve(rhs, again)? {
                 None => false,
-                Some((outcome, made)) => {
-                    self.iterations += outcome.map_or(0, |outcome| outcome.report().iterations);
+                Some(Solution::Direct) => true,
+                Some(Solution::Iterated { outcome, made }) => {
+                    self.iterations += outcome.report().iterations;
                     self.factorisations += made;
                     true
+                }
+                Some(Solution::Distant { outcome }) => {
+                    self.iterations += outcome.report().iterations;
+                    return Ok(false);
                 }
             },
             Store::Iterative(store) => match store.solve(rhs) {
@@ -441,7 +468,7 @@ impl System {
             }
             None => match self.suspect(size(rhs), load) {
                 Some(pivot) => pivot,
-                None => return Ok(()),
+                None => return Ok(true),
             },
         };
         Err(self.in_degrees_of_freedom(DirectError::Singular(pivot).into()))

@@ -1,5 +1,5 @@
 //! A sparse unsymmetric system solved by GMRES. The factor of a symmetric matrix near it, made at the first solve of a step, is
-//! the preconditioner of all solves of that step.
+//! the preconditioner of the solves of that step for as long as it costs less than another.
 //!
 //! Friction makes a tangent unsymmetric in the rows of points that slip, which are few, and an iteration of Newton's method
 //! changes little else. A Cholesky factor costs a fraction of LU, of which half is kept.
@@ -18,7 +18,7 @@ use faer::sparse::SparseColMatRef;
 
 /// Bounds of a solution. Newton's method, whose residual falls by the tolerance at best, takes as many iterations with 1e-5 as with
 /// exact directions while pairs and plastic points change, and one more at its end; smaller ones cost more than they save.
-const BOUNDS: Bounds = Bounds { tolerance: 1e-5, restart: 60, most_iterations: 180 };
+const BOUNDS: Bounds = Bounds { tolerance: 1e-5, restart: 60, most_iterations: 180, paced: false };
 /// Residual over the load at which a solution is a direction for Newton's method, which judges by the residual it leads to.
 const USEFUL: f64 = 1e-3;
 /// Rate of operations in a factorisation over that in a solve, which waits for memory.
@@ -37,8 +37,10 @@ pub(super) struct PreconditionedStore {
     symmetry: Symmetry,
     /// True if the preconditioner is to be made from the next matrix.
     due: bool,
-    /// True if the matrix is factored as it is, since no preconditioner could be made for the step.
+    /// True if the matrices of the step are factored as they are, since iterations failed with a preconditioner of their own.
     factored: bool,
+    /// True if the present matrix is factored as it is, since the symmetric one is not positive definite.
+    exact: bool,
     /// Iterations of the first solution with the preconditioner.
     fresh: Option<usize>,
     /// Iterations that later solutions took beyond it.
@@ -50,7 +52,17 @@ impl PreconditionedStore {
         let mut near = SparseStore::default();
         near.prepare(memory, analysis);
         let (whole, symmetry) = (SparseStore::default(), Symmetry::General);
-        Self { whole, near, memory, symmetry, due: true, factored: false, fresh: None, excess: 0 }
+        Self {
+            whole,
+            near,
+            memory,
+            symmetry,
+            due: true,
+            factored: false,
+            exact: false,
+            fresh: None,
+            excess: 0,
+        }
     }
 
     /// Forgets patterns and factors.
@@ -83,6 +95,7 @@ impl PreconditionedStore {
             self.near.clear();
             return Ok(());
         }
+        self.exact = false;
         self.whole.renew(patterns, equations, symmetry)?;
         self.whole.clear();
         if self.due {
@@ -105,7 +118,7 @@ impl PreconditionedStore {
     }
 
     /// The store of the matrix itself.
-    pub fn exact(&self) -> &SparseStore {
+    pub fn matrix(&self) -> &SparseStore {
         if self.symmetry == Symmetry::General { &self.whole } else { &self.near }
     }
 
@@ -121,29 +134,31 @@ impl PreconditionedStore {
         if !self.due {
             return Ok((0, false));
         }
-        let made = match self.near.factor(Symmetry::Positive) {
-            Ok(_) => 1,
-            // Softening: the matrix itself decides.
+        match self.near.factor(Symmetry::Positive) {
+            Ok(_) => (self.due, self.fresh, self.excess) = (false, None, 0),
+            // Softening: the matrix itself decides, and the next one is tried anew.
             Err(FemError::Direct(DirectError::NotPositive(_))) if self.admits_lu() => {
                 self.whole.factor(Symmetry::General)?;
-                self.factored = true;
-                1
+                self.exact = true;
             }
             Err(error) => return Err(error),
-        };
-        (self.due, self.fresh, self.excess) = (false, None, 0);
-        Ok((made, false))
+        }
+        Ok((1, false))
     }
 
-    /// Notes the iterations of a solution. What they exceed the first by adds up; once it has cost as much as a factorisation, another
-    /// is made, so that the whole costs at most twice what it would have cost with the best choice.
-    fn count(&mut self, iterations: usize) {
-        let fresh = *self.fresh.get_or_insert(iterations);
-        self.excess += iterations.saturating_sub(fresh);
-        let worth = self.near.cholesky().map_or(f64::INFINITY, |symbolic| {
-            symbolic.operations() / (FACTORISATION_RATE * 4.0 * symbolic.stored() as f64)
-        });
-        self.due = self.excess as f64 > worth;
+    /// Iterations that cost as much as a factorisation.
+    fn worth(&self) -> usize {
+        self.near.cholesky().map_or(usize::MAX, |symbolic| {
+            (symbolic.operations() / (FACTORISATION_RATE * 4.0 * symbolic.stored() as f64)) as usize
+        })
+    }
+
+    /// Bounds of a solution after which another factor may be made. What solutions with one factor take beyond the first adds up to the
+    /// cost of another at most, so that the whole costs at most twice what it would have cost with the best choice.
+    fn bounds(&self) -> Bounds {
+        let Some(fresh) = self.fresh else { return BOUNDS };
+        let most = fresh.saturating_add(self.worth().saturating_sub(self.excess));
+        Bounds { most_iterations: most.min(BOUNDS.most_iterations), paced: true, ..BOUNDS }
     }
 
     /// True if memory suffices for LU.
@@ -151,21 +166,30 @@ impl PreconditionedStore {
         self.near.cholesky().is_some_and(|symbolic| symbolic.bytes() <= self.memory / UNSYMMETRIC)
     }
 
-    /// Solves in place. `None` without a matrix; the second value is the number of factorisations made.
-    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<Option<(Option<Outcome>, usize)>, FemError> {
+    /// Solves in place; `None` without a matrix. With `again` the caller can assemble and solve again, which
+    /// [`Solution::Distant`] asks for.
+    pub fn solve(&mut self, rhs: &mut [f64], again: bool) -> Result<Option<Solution>, FemError> {
         if self.symmetry != Symmetry::General {
-            return Ok(self.near.solve(rhs).then_some((None, 0)));
+            return Ok(self.near.solve(rhs).then_some(Solution::Direct));
         }
-        if self.factored {
-            return Ok(self.whole.solve(rhs).then_some((None, 0)));
+        if self.factored || self.exact {
+            return Ok(self.whole.solve(rhs).then_some(Solution::Direct));
         }
         let Some(map) = &self.whole.map else { return Ok(None) };
         let load = rhs.to_vec();
-        let outcome = gmres::solve(&System { map, near: &self.near }, rhs, BOUNDS);
+        let bounds = if again { self.bounds() } else { BOUNDS };
+        let outcome = gmres::solve(&System { map, near: &self.near }, rhs, bounds);
         let report = outcome.report();
-        self.count(report.iterations);
+        let fresh = *self.fresh.get_or_insert(report.iterations);
+        self.excess += report.iterations.saturating_sub(fresh);
+        self.due = self.excess > self.worth();
+        if bounds.paced && !outcome.converged() {
+            rhs.copy_from_slice(&load);
+            self.due = true;
+            return Ok(Some(Solution::Distant { outcome }));
+        }
         if report.euclidean <= USEFUL {
-            return Ok(Some((Some(outcome), 0)));
+            return Ok(Some(Solution::Iterated { outcome, made: 0 }));
         }
         if !self.admits_lu() {
             return Err(FemError::NotConverged(outcome));
@@ -173,8 +197,18 @@ impl PreconditionedStore {
         rhs.copy_from_slice(&load);
         self.factored = true;
         self.whole.factor(Symmetry::General)?;
-        Ok(self.whole.solve(rhs).then_some((Some(outcome), 1)))
+        Ok(self.whole.solve(rhs).then_some(Solution::Iterated { outcome, made: 1 }))
     }
+}
+
+/// Way in which a system was solved.
+pub(super) enum Solution {
+    /// By a factor.
+    Direct,
+    /// By iterations, or after them by `made` factorisations.
+    Iterated { outcome: Outcome, made: usize },
+    /// Not at all: the preconditioner, which is that of an earlier matrix, is too far from this one. The next assembly makes another.
+    Distant { outcome: Outcome },
 }
 
 /// The matrix with its preconditioner.

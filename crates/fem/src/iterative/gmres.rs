@@ -6,6 +6,8 @@ use crate::outcome::{Outcome, Report};
 
 /// A cycle has stalled if it leaves the recomputed residual above this fraction of its value before.
 const STALL: f64 = 0.5;
+/// Iterations before their pace is judged: the first ones of a solution often win little.
+const PACED: usize = 8;
 
 /// Bounds of a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +18,16 @@ pub struct Bounds {
     pub restart: usize,
     /// Iterations after which the solution is abandoned.
     pub most_iterations: usize,
+    /// True if a solution is abandoned that wins too few digits in the beginning to be accepted within `most_iterations`.
+    pub paced: bool,
+}
+
+impl Bounds {
+    /// True if a residual over the load is behind the pace after some iterations.
+    fn lags(&self, iterations: usize, left: f64) -> bool {
+        let share = iterations as f64 / self.most_iterations as f64;
+        self.paced && iterations >= PACED && left > self.tolerance.powf(share)
+    }
 }
 
 /// An unsymmetric matrix and an approximation of its inverse, by their actions.
@@ -40,7 +52,7 @@ pub fn solve(system: &impl PreconditionedSystem, b: &mut [f64], bounds: Bounds) 
             Some(Outcome::Converged(report))
         } else if !left.is_finite() {
             Some(Outcome::Indefinite { report, energy: left })
-        } else if iterations >= bounds.most_iterations {
+        } else if iterations >= bounds.most_iterations || bounds.lags(iterations, left) {
             Some(Outcome::Exhausted(report))
         } else if left > STALL * last {
             Some(Outcome::Stalled(report))
@@ -52,8 +64,7 @@ pub fn solve(system: &impl PreconditionedSystem, b: &mut [f64], bounds: Bounds) 
             return outcome;
         }
         last = left;
-        let most = bounds.restart.min(bounds.most_iterations - iterations);
-        let cycle = Cycle::run(system, &residual, bounds.tolerance * load, most);
+        let cycle = Cycle::run(system, &residual, load, iterations, bounds);
         iterations += cycle.columns.len();
         let mut correction = cycle.correction();
         system.precondition(&mut correction);
@@ -73,16 +84,27 @@ struct Cycle {
 }
 
 impl Cycle {
-    /// Extends the basis until the residual is at most `goal`, by `most` vectors at most.
-    fn run(system: &impl PreconditionedSystem, residual: &[f64], goal: f64, most: usize) -> Self {
+    /// Extends the basis after `before` iterations of a solution for a load of this size.
+    fn run(
+        system: &impl PreconditionedSystem,
+        residual: &[f64],
+        load: f64,
+        before: usize,
+        bounds: Bounds,
+    ) -> Self {
+        let most = bounds.restart.min(bounds.most_iterations - before);
         let size = norm(residual);
         let mut cycle =
             Self { basis: vec![scaled(residual, 1.0 / size)], columns: Vec::new(), rotated: vec![size] };
         let mut rotations: Vec<[f64; 2]> = Vec::new();
         let mut image = vec![0.0; residual.len()];
         let mut searched = vec![0.0; residual.len()];
-        while cycle.columns.len() < most && cycle.rotated[cycle.columns.len()].abs() > goal {
+        loop {
             let k = cycle.columns.len();
+            let left = cycle.rotated[k].abs() / load;
+            if k == most || left <= bounds.tolerance || bounds.lags(before + k, left) {
+                break;
+            }
             searched.copy_from_slice(&cycle.basis[k]);
             system.precondition(&mut searched);
             system.multiply(&searched, &mut image);
@@ -179,7 +201,7 @@ mod tests {
         }
     }
 
-    const BOUNDS: Bounds = Bounds { tolerance: 1e-12, restart: 200, most_iterations: 200 };
+    const BOUNDS: Bounds = Bounds { tolerance: 1e-12, restart: 200, most_iterations: 200, paced: false };
 
     #[test]
     fn solution_is_that_of_lu_with_and_without_restarts() {
@@ -212,6 +234,9 @@ mod tests {
         let chain = Chain::new(60);
         let few = Bounds { most_iterations: 5, ..BOUNDS };
         assert!(matches!(solve(&chain, &mut load.clone(), few), Outcome::Exhausted(r) if r.iterations == 5));
+        let paced = Bounds { most_iterations: 12, paced: true, ..BOUNDS };
+        let outcome = solve(&chain, &mut load.clone(), paced);
+        assert!(matches!(outcome, Outcome::Exhausted(r) if r.iterations == PACED), "{outcome}");
         // A cyclic shift: no combination of fewer than n images comes nearer.
         let shift = Chain(DMatrix::from_fn(60, 60, |i, j| if (i + 1) % 60 == j { 1.0 } else { 0.0 }));
         let mut unit = vec![0.0; 60];

@@ -217,14 +217,14 @@ fn all_systems_solve_alike_whichever_pairs_close_and_open() {
     let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
     let mut dense = System::new(clamped(&mesh), Storage::Dense);
     let mut iterated = System::new(clamped(&mesh), Storage::Preconditioned);
+    let mut again = 0;
     for closed in [0..0, 0..3, 0..9, 0..2, 0..60, 30..33, 0..0, 20..60] {
         for (k, is) in contact.closed.iter_mut().enumerate() {
             *is = closed.contains(&k);
         }
         let mut solve = |system: &mut System| {
-            assert!(system.factor_tangent(&mut [&mut block, &mut contact]).unwrap());
             let mut x = load.clone();
-            system.solve(&mut x).unwrap();
+            again += system.solve_tangent(&mut [&mut block, &mut contact], &mut x).unwrap() - 1;
             x
         };
         let expected = solve(&mut System::new(clamped(&mesh), Storage::Sparse));
@@ -238,15 +238,15 @@ fn all_systems_solve_alike_whichever_pairs_close_and_open() {
             assert!(error < bound * size, "{closed:?}: {:e}", error / size);
         }
     }
-    // Half of the systems were solved with the factor of another.
-    assert_eq!((iterated.factorisations, iterated.solves), (4, 8));
+    // So small a factor is worth few iterations: six of the systems were too far from that of the one before and were assembled again.
+    assert_eq!((iterated.factorisations, iterated.solves, again), (7, 8, 6));
     iterated.begin_step();
     let before = iterated.iterations;
     assert!(iterated.factor_tangent(&mut [&mut block, &mut contact]).unwrap());
     iterated.solve(&mut load.clone()).unwrap();
     // The unsymmetric part of forty closed pairs is left to the iterations.
     assert!(
-        iterated.factorisations == 5 && iterated.iterations - before < 8,
+        iterated.factorisations == 8 && iterated.iterations - before < 8,
         "{}",
         iterated.iterations - before
     );

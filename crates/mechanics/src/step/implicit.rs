@@ -456,13 +456,10 @@ impl Implicit {
         let before = SystemCounts::from_system(&self.system);
         let mut rhs = self.system.equations().gather(&self.balance.r);
         rhs.iter_mut().for_each(|r| *r = -*r);
-        let solved = self.system.factor_tangent(terms).and_then(|anew| {
-            counts.tangents += usize::from(anew);
-            self.system.solve(&mut rhs)
-        });
+        let solved = self.system.solve_tangent(terms, &mut rhs);
         counts.solves += 1;
         before.count(&self.system, counts);
-        solved?;
+        counts.tangents += solved?;
         let mut direction = vec![0.0; self.balance.r.len()];
         self.system.equations().spread(&rhs, &mut direction);
         Ok(direction)

@@ -258,7 +258,7 @@ impl TractionFactor {
 
     fn bounds(&self, tolerance: f64) -> Bounds {
         let most_iterations = FEWEST + self.worth();
-        Bounds { tolerance, restart: most_iterations, most_iterations }
+        Bounds { tolerance, restart: most_iterations, most_iterations, paced: false }
     }
 
     /// Notes the iterations that a solution for another matrix took.
