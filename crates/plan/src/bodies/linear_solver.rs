@@ -19,8 +19,10 @@ const HIERARCHY: usize = 4;
 /// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
 /// estimated from counts, and the run does the analysis, unless the estimate is so near what is allowed that it does not decide.
 const ANALYSED: usize = 50_000;
-/// Operations of a Cholesky factorisation above which LU, several times as many, is avoided: a tenth of a second.
-const AVOIDED: f64 = 1e8;
+/// Operations of a Cholesky factorisation of the bodies above which LU, several times as many, is avoided: a hundredth of a second.
+const LU_AVOIDED: f64 = 1e7;
+/// Operations of a dense factorisation of the condensed interface above which tractions are solved for instead: a tenth of a second.
+const DENSE_AVOIDED: f64 = 1e8;
 /// Products with the compliance of pairs, its factor and the bodies in an iteration of Newton's method.
 const PRODUCTS: usize = 8;
 /// Operations of a factorisation in the time in which a product reads a value.
@@ -106,7 +108,7 @@ impl<const D: usize> Choice<'_, D> {
         let kept = retained.iter().map(Vec::len).sum::<usize>() + unknowns;
         let friction = self.unsymmetric().is_some();
         let operations = (kept as f64).powi(3) / if friction { 1.5 } else { 3.0 };
-        let (method, dense, operations, why) = if self.has_pairs() && operations > AVOIDED {
+        let (method, dense, operations, why) = if self.has_pairs() && operations > DENSE_AVOIDED {
             let points = self.interfaces.iter().map(|i| i.slave.len()).sum::<usize>();
             let components = points * self.model.idealisation.components();
             let of_bodies = retained.iter().map(|r| r.len().pow(2)).sum::<usize>();
@@ -188,7 +190,7 @@ impl<const D: usize> Choice<'_, D> {
     /// True if LU of an unsymmetric matrix takes so long that iterations with a Cholesky factor are better, and can take its place.
     fn avoids_lu(&self, prepared: &Analyses) -> bool {
         let large = match prepared {
-            Analyses::System(analysis) => analysis.symbolic().operations() > AVOIDED,
+            Analyses::System(analysis) => analysis.symbolic().operations() > LU_AVOIDED,
             _ => true,
         };
         let definite = self.interfaces.iter().all(|i| i.unknowns == 0);
