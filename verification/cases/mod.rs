@@ -113,6 +113,7 @@ mod okada;
 mod output_files;
 mod partial_slip;
 mod plastic_wave;
+mod press_fit;
 pub mod programs;
 mod restarts;
 pub mod run_files;
@@ -232,6 +233,7 @@ pub const ALL: &[Case] = &[
     newton_convergence::CASE,
     output_files::CASE,
     partial_slip::CASE,
+    press_fit::CASE,
     restarts::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,

@@ -26,6 +26,7 @@ pub(super) fn draw(name: &str) -> Option<Sketch> {
         "hertz_sphere" => hertz("R = 8 mm", "δ = 18 µm", "rigid flat, about the axis", ""),
         "hertz_ball" => hertz("R = 8 mm", "δ = 18 µm", "three dimensions, μ = 0.3", "3.2 µm"),
         "nafems_roller" => hertz("R = 50 mm", "35 kN/mm", "aluminium, 200 × 200 mm", ""),
+        "press_fit" => press_fit(),
         "two_rings" => rings(),
         "wavy_sliding" => wavy(),
         _ => return None,
@@ -247,18 +248,7 @@ fn hertz(radius: &str, load: &str, ground: &str, shear: &str) -> Sketch {
 }
 
 fn rings() -> Sketch {
-    let centre = (20.0, 10.0);
-    let quarter = |inner: f64, outer: f64| {
-        let mut corners = Sketch::arc(centre, outer, 0.0, 90.0);
-        corners.extend(Sketch::arc(centre, inner, 90.0, 0.0));
-        corners
-    };
-    let mut sketch = Sketch::new(70.0)
-        .body(&quarter(31.0, 48.0), "")
-        .body(&quarter(11.0, 31.0), "")
-        .fault(&Sketch::arc(centre, 31.0, 0.0, 90.0))
-        .rollers((31.0, 10.0), (68.0, 10.0))
-        .rollers((20.0, 58.0), (20.0, 21.0));
+    let mut sketch = quarters(11.0, 31.0, 48.0);
     for degrees in [20.0_f64, 45.0, 70.0] {
         let (s, c) = degrees.to_radians().sin_cos();
         sketch = sketch.arrow((20.0 + 56.0 * c, 10.0 + 56.0 * s), (20.0 + 48.5 * c, 10.0 + 48.5 * s), "");
@@ -268,6 +258,30 @@ fn rings() -> Sketch {
         .note((63.0, 46.0), "r = 0.2, 0.6, 1 m")
         .note((63.0, 40.0), "E = 1 GPa, ν = 0.2")
         .note((63.0, 34.0), "no friction")
+}
+
+fn press_fit() -> Sketch {
+    quarters(12.0, 24.0, 48.0)
+        .note((63.0, 52.0), "overlap 0.4 mm")
+        .note((63.0, 46.0), "r = 0.2, 0.4, 0.8 m")
+        .note((63.0, 40.0), "E = 200 GPa, ν = 0.3")
+        .note((63.0, 34.0), "μ = 0.3")
+}
+
+/// Quarters of two rings, one inside the other.
+fn quarters(bore: f64, between: f64, outside: f64) -> Sketch {
+    let centre = (20.0, 10.0);
+    let quarter = |inner: f64, outer: f64| {
+        let mut corners = Sketch::arc(centre, outer, 0.0, 90.0);
+        corners.extend(Sketch::arc(centre, inner, 90.0, 0.0));
+        corners
+    };
+    Sketch::new(70.0)
+        .body(&quarter(between, outside), "")
+        .body(&quarter(bore, between), "")
+        .fault(&Sketch::arc(centre, between, 0.0, 90.0))
+        .rollers((20.0 + bore, 10.0), (68.0, 10.0))
+        .rollers((20.0, 58.0), (20.0, 10.0 + bore))
 }
 
 fn wavy() -> Sketch {

@@ -689,7 +689,7 @@ fn a_checkpoint_of_bodies_that_does_not_fit_is_refused() {
     let good = fs::read_to_string(&path).unwrap();
     fs::write(&path, &good[..good.len() / 2]).unwrap();
     refused(&["--resume"], "is damaged");
-    let rest = good.strip_prefix("asperity checkpoint of bodies, version 8\n").unwrap();
+    let rest = good.strip_prefix("asperity checkpoint of bodies, version 9\n").unwrap();
     fs::write(&path, format!("asperity checkpoint of bodies, version 99\n{rest}")).unwrap();
     refused(&["--resume"], "has version 99");
     fs::write(&path, format!("asperity checkpoint of faults, version 1\n{rest}")).unwrap();

@@ -45,6 +45,8 @@ pub struct MortarPointState {
     pub slaves: usize,
     /// Weights of the nodes at the last commit.
     pub then: Vec<f64>,
+    /// Components of the averaged distance along the frame at the last commit \[m\].
+    pub apart: [f64; 2],
     /// True if these weights are set.
     pub anchored: bool,
 }

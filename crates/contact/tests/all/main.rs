@@ -10,6 +10,7 @@ mod forward;
 mod iterates;
 mod mirrors;
 mod mortar;
+mod normals;
 mod physics;
 mod search;
 mod sliding;

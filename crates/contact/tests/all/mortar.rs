@@ -14,7 +14,7 @@ pub type LawOption = Option<Arc<dyn Law>>;
 /// Nodes and facets of one side.
 pub struct Side<const D: usize> {
     pub x: Vec<[f64; D]>,
-    faces: Vec<Segment>,
+    pub faces: Vec<Segment>,
 }
 
 pub fn interface_spec<const D: usize>(

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 122] = [
+const CASES: [(&str, &[&str]); 123] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -91,6 +91,7 @@ const CASES: [(&str, &[&str]); 122] = [
     ("output_files", &["erickson2020"]),
     ("partial_slip", &["cattaneo1938", "mindlin1949", "mindlin1953"]),
     ("restarts", &[]),
+    ("press_fit", &["timoshenko1970"]),
     ("rupture_in_space", &["day2005", "eshelby1957", "geubelle1995", "kostrov1964"]),
     ("rupture_in_space_full", &["day2005", "harris2009", "kaneko2010"]),
     ("sandwich_3d", &["timoshenko1970"]),

@@ -55,7 +55,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies";
-    const VERSION: &'static str = "8";
+    const VERSION: &'static str = "9";
 }
 
 /// See the module.

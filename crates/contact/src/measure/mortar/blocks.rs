@@ -189,9 +189,8 @@ impl<const D: usize> MortarMeasure<D> {
                 let column = k * D + i;
                 let mut change = turns.get(column).copied().unwrap_or_else(Change::none);
                 change.d = std::array::from_fn(|j| changes[j * size + column]);
-                change.v = change.d.map(|d| -d);
                 change.d[i] += now;
-                change.v[i] += then - now;
+                change.v[i] += then;
                 let df = local.force_change(traction, &change);
                 df.iter().enumerate().for_each(|(j, df)| changes[j * size + column] = *df);
             }

@@ -148,6 +148,12 @@ impl Face {
         std::array::from_fn(|m| off[0].times(self.back[0][m]) + off[1].times(self.back[1][m]))
     }
 
+    /// Ratio of lengths or areas in the natural coordinates of the face to those of the facet.
+    pub(super) fn scale(&self) -> f64 {
+        let [[a, b], [c, d]] = self.along;
+        (a * d - b * c).abs()
+    }
+
     /// Slopes of a function in the natural coordinates of the face, from those in the coordinates of the facet.
     #[inline]
     pub(super) fn slopes(&self, [x, y]: [f64; 2]) -> [f64; 2] {

@@ -1,10 +1,13 @@
 //! Finite sliding with the overlap of the present configuration.
 //!
 //! The tangential increment since the last commit is the growth of the averaged distance between material points that faced
-//! each other then. With the weights `s = (D, -M)/a` of the last commit and of now, it is `v = Σ_k (s_k^then - s_k^now) x_k` at
-//! present positions, in components along the frame. This is the change of the mortar matrices of Puso and Laursen (2004b),
-//! which vanishes in a common rigid motion. The frame turns with the slave surface by the polar rotation of two of its material
-//! vectors, so that history needs no rotation.
+//! each other then: `v = Σ_k s_k^then x_k` with the weights `s = (D, -M)/a` of the last commit and present positions, in components
+//! along the frame, less those at the last commit. It vanishes in a common rigid motion. The frame turns with the slave surface by the
+//! polar rotation of two of its material vectors, so that history needs no rotation.
+//!
+//! Puso and Laursen (2004b) use the change of the mortar matrices, `Σ_k (s_k^then - s_k^now) x_k`. It differs by the growth of the
+//! averaged gap across n_A, since the masters are found along the normals of facets. Bodies that approach along the normal of a curved
+//! surface would slip by a share of the turn of a facet.
 //!
 //! The tangent (`blocks`) includes the derivatives of the overlap: in space those of `overlap`, in the plane by forward
 //! differentiation (`scalar::Dual`). Polygon corners at which corners of both facets coincide have one-sided derivatives.
@@ -18,11 +21,11 @@
 use super::buffers::Pool;
 use super::cell::{Sums, integrate};
 use super::facet::{Facet, NODES, node_at};
-use super::local::{Change, Local};
+use super::local::{Change, Distances, Local};
 use super::order::{CHUNK, WorkOrder};
 use super::overlap::{self, Integrals, MOST};
 use super::scalar::Dual;
-use super::sides::{AdjacentFace, Sides, SlaveFacet, Surfaces, bases_of};
+use super::sides::{Sides, SlaveFacet, Surfaces};
 use super::small::FACED;
 use super::state::{Cell, MortarMeasure, Point};
 use super::straight::Lines;
@@ -32,7 +35,7 @@ use crate::measure::measure_state::{MeasureState, MortarPointState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::shape::{MOST_NODES, shape};
 use crate::spec::SurfaceNode;
-use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, solve_tangential};
+use crate::vector::{add, axpy, dot, norm, scaled, solve_tangential};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 
@@ -241,10 +244,11 @@ impl<const D: usize> MortarMeasure<D> {
     /// Anchors points that now meet the master for the first time; they have not slipped before.
     fn anchor(&mut self) {
         self.weigh();
-        for point in &mut self.points {
-            if !point.anchored && point.faces() {
-                point.keep();
-                point.fresh = true;
+        for p in 0..self.points.len() {
+            if !self.points[p].anchored && self.points[p].faces() {
+                let apart = self.local(p).apart();
+                self.points[p].keep(apart);
+                self.points[p].fresh = true;
             }
         }
     }
@@ -252,18 +256,18 @@ impl<const D: usize> MortarMeasure<D> {
     fn local(&self, p: usize) -> Local<D> {
         let point = &self.points[p];
         let share = if point.area == 0.0 { 0.0 } else { point.area.recip() };
-        let (mut d, mut v) = ([0.0; D], [0.0; D]);
+        let mut distances = Distances { d: [0.0; D], v: [0.0; D], then: point.apart };
         for ((&n, w), then) in point.nodes.iter().zip(&point.weights).zip(&point.then) {
-            axpy(&mut d, share * w, &self.x[n]);
-            axpy(&mut v, then - share * w, &self.x[n]);
+            axpy(&mut distances.d, share * w, &self.x[n]);
+            axpy(&mut distances.v, *then, &self.x[n]);
         }
         let mirror = self.sides.mirrors[p];
         if mirror.any() {
-            return Local::mirrored(&self.sides.normal_sum(p, &self.x), mirror, d, v);
+            return Local::mirrored(&self.sides.normal_sum(p, &self.x), mirror, distances);
         }
-        let e = self.sides.bases(self.sides.around[p][0], &self.x);
+        let e = self.sides.bases(&self.sides.around[p][0], &self.x);
         let material = point.along.map(|[a, b]| add(&scaled(&e[0], a), &scaled(&e[1], b)));
-        Local::new(&self.sides.normal_sum(p, &self.x), material, d, v)
+        Local::new(&self.sides.normal_sum(p, &self.x), material, distances)
     }
 
     /// Computes δn and δframe for unit displacements of the slave nodes of point `p`, axis by axis.
@@ -275,7 +279,7 @@ impl<const D: usize> MortarMeasure<D> {
         for (k, b) in self.sides.around[p].iter().enumerate() {
             let face = &self.sides.faces[b.face];
             let s = shape(face.kind, node_at(face.kind, b.local));
-            let e = bases_of(&s, &face.nodes, &self.x);
+            let arms = self.sides.arms(b, &self.x);
             for (l, node) in face.nodes.iter().enumerate() {
                 // Nodes of adjacent faces come first in the block.
                 let Some(place) = point.nodes[..point.slaves].iter().position(|n| n == node) else {
@@ -283,14 +287,7 @@ impl<const D: usize> MortarMeasure<D> {
                 };
                 let slopes = [s.first[0][l], s.first[1][l]];
                 for (i, change) in out[place * D..(place + 1) * D].iter_mut().enumerate() {
-                    let mut unit = [0.0; D];
-                    unit[i] = 1.0;
-                    if D == 2 {
-                        axpy(&mut change.n, slopes[0], &perpendicular(&[unit, unit]));
-                    } else {
-                        axpy(&mut change.n, slopes[0], &cross(&unit, &e[1]));
-                        axpy(&mut change.n, slopes[1], &cross(&e[0], &unit));
-                    }
+                    axpy(&mut change.n, 1.0, &arms[l].change(i));
                     if k == 0 {
                         for (m, [a, b]) in change.frame.iter_mut().zip(&point.along) {
                             m[i] = a * slopes[0] + b * slopes[1];
@@ -305,7 +302,7 @@ impl<const D: usize> MortarMeasure<D> {
         }
     }
 
-    /// Adds to `slides` the contribution of the changing overlap of a cell.
+    /// Adds to the increments of gaps the contribution of the changing overlap of a cell.
     fn overlap_slide(&self, c: &Cell, du: &[[f64; D]], out: &mut Slides) {
         let [slave, master] = self.facets(c);
         let moved = |facet: &Facet| -> [[Dual<1>; D]; MOST_NODES] {
@@ -336,11 +333,7 @@ impl<const D: usize> MortarMeasure<D> {
                     axpy(&mut dp, -share * w.d[0], &self.x[n]);
                 }
             });
-            let dd = scaled(&dp, self.points[p].area.recip());
-            out.gap[p] += dot(&local.n, &dd);
-            for j in 0..2 {
-                out.increment[p][j] -= dot(&local.frame[j], &dd);
-            }
+            out.gap[p] += dot(&local.n, &dp) / self.points[p].area;
         }
     }
 }
@@ -360,8 +353,9 @@ impl Point {
         self.area > FACED * self.whole
     }
 
-    /// Stores the present weights as those of the last commit.
-    fn keep(&mut self) {
+    /// Stores the present weights, and the components of the averaged distance along the frame, as those of the last commit.
+    fn keep(&mut self, apart: [f64; 2]) {
+        self.apart = apart;
         for (then, w) in self.then.iter_mut().zip(&self.weights) {
             *then = w / self.area;
         }
@@ -376,7 +370,7 @@ fn three<const D: usize>(x: [f64; D]) -> [f64; 3] {
 
 /// Components of the small-sliding frame's vectors in the base vectors of the first face adjacent to point `p`.
 fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [[f64; 2]; 2] {
-    let first: AdjacentFace = sides.around[p][0];
+    let first = &sides.around[p][0];
     let e = sides.bases(first, x);
     let normals = sides.normal_sum(p, x);
     let frame = fixed_frame(&scaled(&normals, -norm(&normals).recip()));
@@ -445,12 +439,19 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
                 continue;
             }
             let local = &self.locals[p];
-            for (&n, w) in point.nodes.iter().zip(&point.weights) {
-                out.gap[p] += w / point.area * dot(&local.n, &du[n]);
+            let mut add = |gap: f64, along: [f64; 2]| {
+                out.gap[p] += gap;
+                out.increment[p].iter_mut().zip(along).for_each(|(to, by)| *to += by);
+            };
+            for ((&n, w), then) in point.nodes.iter().zip(&point.weights).zip(&point.then) {
+                let along = local.frame.map(|e| then * dot(&e, &du[n]));
+                add(w / point.area * dot(&local.n, &du[n]), along);
             }
             self.turns(p, &mut buffers.turns);
             for (&n, turns) in point.nodes.iter().zip(buffers.turns.chunks_exact(D)) {
-                turns.iter().zip(&du[n]).for_each(|(turn, du)| out.gap[p] += du * dot(&turn.n, &local.d));
+                for (turn, du) in turns.iter().zip(&du[n]) {
+                    add(du * dot(&turn.n, &local.d), turn.frame.map(|e| du * dot(&e, &local.v)));
+                }
             }
         }
         self.buffers.keep(buffers);
@@ -464,10 +465,10 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
     }
 
     fn commit(&mut self, _geometry: &Geometry<D>, _reframe: &mut dyn FnMut(usize, &[[f64; D]; 2])) {
-        for point in &mut self.points {
+        for (point, local) in self.points.iter_mut().zip(&self.locals) {
             point.fresh = false;
             if point.faces() {
-                point.keep();
+                point.keep(local.apart());
             } else {
                 point.anchored = false;
                 point.then.fill(0.0);
@@ -532,6 +533,7 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
             nodes: point.nodes.clone(),
             slaves: point.slaves,
             then: point.then.clone(),
+            apart: point.apart,
             anchored: point.anchored,
         };
         MeasureState::Mortar {
@@ -559,6 +561,7 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
         for (point, saved) in self.points.iter_mut().zip(points) {
             point.nodes.clone_from(&saved.nodes);
             point.then.clone_from(&saved.then);
+            point.apart = saved.apart;
             point.weights = vec![0.0; saved.nodes.len()];
             (point.slaves, point.anchored, point.fresh) = (saved.slaves, saved.anchored, false);
         }

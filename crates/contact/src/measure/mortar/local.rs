@@ -23,8 +23,21 @@ pub(super) struct Local<const D: usize> {
     mirror: Mirror,
     /// Averaged distance x_s - x_c: `Σ_k s_k x_k`.
     pub d: [f64; D],
-    /// Growth of `d` since the last commit at fixed material points: `Σ_k (s_k of the last commit) x_k - d`.
+    /// Averaged distance of the material points that faced each other at the last commit: `Σ_k (s_k of the last commit) x_k`.
     pub v: [f64; D],
+    /// Its components along the frame at the last commit.
+    then: [f64; 2],
+}
+
+/// Averaged distances of a point \[m\].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Distances<const D: usize> {
+    /// Distance of points that face each other now.
+    pub d: [f64; D],
+    /// Distance of points that faced each other at the last commit.
+    pub v: [f64; D],
+    /// Components of the latter along the frame at the last commit.
+    pub then: [f64; 2],
 }
 
 /// Changes of the geometry of a point.
@@ -54,29 +67,43 @@ pub(super) struct Traction<'a> {
 impl<const D: usize> Local<D> {
     /// Constructs the geometry from the sum of the outward slave normals and two material tangent vectors (unused in two
     /// dimensions).
-    pub(super) fn new(normals: &[f64; D], material: [[f64; D]; 2], d: [f64; D], v: [f64; D]) -> Self {
+    pub(super) fn new(normals: &[f64; D], material: [[f64; D]; 2], distances: Distances<D>) -> Self {
+        let Distances { d, v, then } = distances;
         let length = norm(normals);
         let n = scaled(normals, -length.recip());
         let [e, second] = material;
         if D == 2 {
             let frame = [tangent(&n), [0.0; D]];
-            return Self { n, length, e, second, projected: 1.0, frame, mirror: Mirror::default(), d, v };
+            return Self {
+                n,
+                length,
+                e,
+                second,
+                projected: 1.0,
+                frame,
+                mirror: Mirror::default(),
+                d,
+                v,
+                then,
+            };
         }
         let e = add(&e, &cross(&second, &n));
         let mut q = e;
         axpy(&mut q, -dot(&n, &e), &n);
         let first = unit(&q);
         let frame = [first, cross(&n, &first)];
-        Self { n, length, e, second, projected: norm(&q), frame, mirror: Mirror::default(), d, v }
+        Self { n, length, e, second, projected: norm(&q), frame, mirror: Mirror::default(), d, v, then }
     }
 
     /// Constructs the geometry of a point on planes of symmetry, whose frame follows from the normal alone.
-    pub(super) fn mirrored(normals: &[f64; D], mirror: Mirror, d: [f64; D], v: [f64; D]) -> Self {
+    pub(super) fn mirrored(normals: &[f64; D], mirror: Mirror, distances: Distances<D>) -> Self {
+        let Distances { d, v, then } = distances;
         let flat = mirror.flattened(*normals);
         let length = norm(&flat);
         let n = scaled(&flat, -length.recip());
         let none = [0.0; D];
-        Self { n, length, e: none, second: none, projected: 1.0, frame: mirror.frame(&n), mirror, d, v }
+        let frame = mirror.frame(&n);
+        Self { n, length, e: none, second: none, projected: 1.0, frame, mirror, d, v, then }
     }
 
     /// Gap g_n.
@@ -86,7 +113,12 @@ impl<const D: usize> Local<D> {
 
     /// Tangential displacement since the last commit \[m\], in the frame.
     pub(super) fn increment(&self) -> [f64; 2] {
-        [dot(&self.frame[0], &self.v), dot(&self.frame[1], &self.v)]
+        std::array::from_fn(|j| dot(&self.frame[j], &self.v) - self.then[j])
+    }
+
+    /// Components of the averaged distance along the frame \[m\].
+    pub(super) fn apart(&self) -> [f64; 2] {
+        self.frame.map(|e| dot(&e, &self.d))
     }
 
     /// Computes δn and δframe from the changes of the sum of normals and of the tangent vectors.

@@ -6,7 +6,7 @@
 //!
 //! `a_A = ∫ψ_A`, `D_AB = ∫ψ_A N_B`, `M_Aγ = ∫ψ_A N_γ`, `d_A = (Σ_B D_AB x_B - Σ_γ M_Aγ x_γ)/a_A`, `g_A = n_A·d_A`,
 //!
-//! where n_A is minus the averaged normal of the slave facets at A, so that it points outward from the master. The law of the
+//! where n_A is minus the averaged normal of the slave faces at A (`normals`), so that it points outward from the master. The law of the
 //! interface gives one traction f_A per point, and virtual work gives the nodal forces `D_AB f_A` on the slave and `-M_Aγ f_A`
 //! on the master. Forces balance because `Σ_B D_AB = Σ_γ M_Aγ = a_A`. A uniform pressure loads either side with the integrals
 //! of its own shape functions, so the contact patch test is passed.
@@ -27,6 +27,7 @@ mod facet;
 mod finite;
 mod local;
 mod mirror;
+mod normals;
 mod order;
 mod overlap;
 mod pairing;

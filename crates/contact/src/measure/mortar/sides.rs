@@ -11,7 +11,7 @@ use crate::SegmentKind;
 use crate::search::tree::{Aabb, Tree};
 use crate::shape::{MOST_NODES, Shape, shape};
 use crate::spec::{Segment, SlavePoint};
-use crate::vector::{axpy, dot, norm, perpendicular, scaled, sub};
+use crate::vector::{axpy, dot, norm, perpendicular, scaled, sub, unit};
 
 /// Bound on the product of facet normals, which excludes facets whose normals enclose less than about 96 degrees. Along the
 /// slave's normal the projection of such a master facet degenerates.
@@ -39,6 +39,14 @@ pub(super) struct SlaveFace<const D: usize> {
     reference: Vec<[f64; D]>,
 }
 
+impl<const D: usize> SlaveFace<D> {
+    /// Outward unit normals at its nodes.
+    pub(super) fn normals(&self, x: &[[f64; D]]) -> Vec<[f64; D]> {
+        let at = |k: usize| unit(&perpendicular(&bases(self.kind, &self.nodes, x, node_at(self.kind, k))));
+        (0..self.nodes.len()).map(at).collect()
+    }
+}
+
 /// A facet on which the function of a slave point does not vanish, and the row of the point in its weighting.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AdjacentFacet {
@@ -46,11 +54,22 @@ pub(super) struct AdjacentFacet {
     pub row: usize,
 }
 
-/// A face adjacent to a slave point, and the local number of the point's node in it.
+/// A face adjacent to a slave point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AdjacentFace {
     pub face: usize,
+    /// Local number of the point's node.
     pub local: usize,
+    /// Shares of the normals at the nodes of the face in that of the point.
+    of_normals: [f64; MOST_NODES],
+}
+
+impl AdjacentFace {
+    /// Nodes whose normals have a share, with it.
+    #[inline]
+    pub(super) fn shares(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.of_normals.iter().copied().enumerate().filter(|(_, share)| *share != 0.0)
+    }
 }
 
 /// Both surfaces of an interface as they are given.
@@ -133,7 +152,9 @@ impl<const D: usize> Sides<D> {
         let number = self.faces.len();
         for (local, &n) in face.nodes.iter().enumerate() {
             if let Some(p) = point_of[n] {
-                self.around[p].push(AdjacentFace { face: number, local });
+                let mut of_normals = [0.0; MOST_NODES];
+                of_normals[local] = f64::from(u8::from(face.kind.first_order()));
+                self.around[p].push(AdjacentFace { face: number, local, of_normals });
             }
         }
         let middle = self.centres.add(face, positions);
@@ -149,6 +170,27 @@ impl<const D: usize> Sides<D> {
         let reference = face.nodes.iter().map(|&n| positions[n]).collect();
         let points = face.nodes.iter().map(|&n| point_of[n]).collect();
         self.faces.push(SlaveFace { kind: face.kind, nodes: face.nodes.clone(), points, reference });
+        if !face.kind.first_order() {
+            self.add_normals(number);
+        }
+    }
+
+    /// Adds the shares of the normals at the nodes of the last face, with this number.
+    fn add_normals(&mut self, number: usize) {
+        let reference = &self.faces[number].reference;
+        let radius = |of_face: &[f64; MOST_NODES]| {
+            let r = || reference.iter().zip(of_face).map(|(x, f)| x[0] * f).sum();
+            if self.axisymmetric { r() } else { 1.0 }
+        };
+        let of_face = self.facets.partition_point(|slave| slave.face < number);
+        for slave in &self.facets[of_face..] {
+            let rule = self.rules.rule(rule::points(&slave.facet, Rows::Corners, &slave.facet));
+            let rows = slave.weighting.products(&slave.facet, rule, radius);
+            for (&p, row) in slave.weighting.points.iter().zip(rows) {
+                let beside = self.around[p].iter_mut().filter(|b| b.face == number);
+                beside.for_each(|b| axpy(&mut b.of_normals, 1.0, &row));
+            }
+        }
     }
 
     /// Constant data of slave facet `f`.
@@ -171,19 +213,9 @@ impl<const D: usize> Sides<D> {
 
     /// Base vectors of face `b.face` at the node of a slave point.
     #[inline]
-    pub(super) fn bases(&self, b: AdjacentFace, x: &[[f64; D]]) -> [[f64; D]; 2] {
+    pub(super) fn bases(&self, b: &AdjacentFace, x: &[[f64; D]]) -> [[f64; D]; 2] {
         let face = &self.faces[b.face];
         bases(face.kind, &face.nodes, x, node_at(face.kind, b.local))
-    }
-
-    /// Sum of the outward normals of the faces adjacent to slave point `p`, each weighted with its Jacobian there.
-    #[inline]
-    pub(super) fn normal_sum(&self, p: usize, x: &[[f64; D]]) -> [f64; D] {
-        let mut sum = [0.0; D];
-        for b in &self.around[p] {
-            axpy(&mut sum, 1.0, &perpendicular(&self.bases(*b, x)));
-        }
-        sum
     }
 
     /// Approximate area of each point's function over the whole slave surface, in the reference configuration.

@@ -17,23 +17,37 @@ use std::collections::BTreeMap;
 pub(super) const FACED: f64 = 1e-9;
 
 /// Row of slave point A in `D` and `M`.
-#[derive(Clone, Debug, Default)]
-struct Row {
+#[derive(Clone, Debug)]
+struct Row<const D: usize> {
     area: f64,
+    /// Integral of its function times the outward normal of the slave.
+    normal: [f64; D],
     slave: BTreeMap<usize, f64>,
     master: BTreeMap<usize, f64>,
     /// Integrals of the products of its function with those of points.
     points: BTreeMap<usize, f64>,
 }
 
-impl Row {
+impl<const D: usize> Row<D> {
+    fn new() -> Self {
+        let none = BTreeMap::new;
+        Self { area: 0.0, normal: [0.0; D], slave: none(), master: none(), points: none() }
+    }
+
     /// Adds a share of the integrals with the functions of both faces.
-    fn add(&mut self, share: f64, [own, other]: [&Vec<usize>; 2], [with_own, with_other]: [&[f64]; 2]) {
-        for (&n, w) in own.iter().zip(with_own) {
+    fn add(
+        &mut self,
+        share: f64,
+        (own, normals): (&[usize], &[[f64; D]]),
+        master: &[usize],
+        [with_own, with_other]: [&[f64]; 2],
+    ) {
+        for ((&n, normal), w) in own.iter().zip(normals).zip(with_own) {
             self.area += share * w;
+            axpy(&mut self.normal, share * w, normal);
             *self.slave.entry(n).or_default() += share * w;
         }
-        for (&n, w) in other.iter().zip(with_other) {
+        for (&n, w) in master.iter().zip(with_other) {
             *self.master.entry(n).or_default() += share * w;
         }
     }
@@ -77,7 +91,7 @@ pub fn small<const D: usize>(
     let areas = (0..points).map(|p| if paired(p) { rows[p].area } else { 0.0 }).collect();
     let mut measure = FixedMeasure::new(areas, false);
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
-        let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
+        let normal = fixed_normal.unwrap_or_else(|| scaled(&row.normal, -1.0));
         let through = row.through();
         let share = row.area.recip();
         measure.average(p, row.points.iter().map(|(&q, w)| (q, share * w)).collect());
@@ -92,8 +106,8 @@ pub fn small<const D: usize>(
     (measure, examined)
 }
 
-fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examined: &mut u64) -> Vec<Row> {
-    let mut rows = vec![Row::default(); points];
+fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examined: &mut u64) -> Vec<Row<D>> {
+    let mut rows = vec![Row::new(); points];
     let mut facets = 0;
     for face in &sides.faces {
         let first = facets;
@@ -105,7 +119,7 @@ fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examine
             sides.candidates(f, x, &mut candidates, examined);
             pairs.extend(candidates.into_iter().map(|m| [f, m]));
         }
-        let overlaps = Overlaps { sides, x, pairs };
+        let overlaps = Overlaps { sides, x, normals: face.normals(x), pairs };
         if !(has_duals(face.kind) && overlaps.add_dual_face(face, first, &mut rows)) {
             (first..facets).for_each(|f| overlaps.add_facet(f, &mut rows));
         }
@@ -117,6 +131,8 @@ fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examine
 struct Overlaps<'a, const D: usize> {
     sides: &'a Sides<D>,
     x: &'a [[f64; D]],
+    /// Outward normals at the nodes of the face.
+    normals: Vec<[f64; D]>,
     pairs: Vec<[usize; 2]>,
 }
 
@@ -151,7 +167,7 @@ impl<const D: usize> Overlaps<'_, D> {
     }
 
     /// Adds the dual functions of a face whose first facet is `first`. Returns false if it has none.
-    fn add_dual_face(&self, face: &SlaveFace<D>, first: usize, rows: &mut [Row]) -> bool {
+    fn add_dual_face(&self, face: &SlaveFace<D>, first: usize, rows: &mut [Row<D>]) -> bool {
         let sides = self.sides;
         let points: Vec<usize> = face.points.iter().copied().flatten().collect();
         let mut parts = self.integrals::<MOST_NODES>(self.pairs.iter(), |f, m| sides.rule_of_face(f, m));
@@ -164,14 +180,15 @@ impl<const D: usize> Overlaps<'_, D> {
         for (a, &p) in points.iter().enumerate() {
             *rows[p].points.entry(p).or_default() += areas[a];
             for ([_, m], sums) in &parts {
-                rows[p].add(1.0, [&face.nodes, &sides.master[*m].face.nodes], [&sums.own[a], &sums.other[a]]);
+                let own = (face.nodes.as_slice(), self.normals.as_slice());
+                rows[p].add(1.0, own, &sides.master[*m].face.nodes, [&sums.own[a], &sums.other[a]]);
             }
         }
         true
     }
 
     /// Adds the functions of the corners of facet `f`, or their duals.
-    fn add_facet(&self, f: usize, rows: &mut [Row]) {
+    fn add_facet(&self, f: usize, rows: &mut [Row<D>]) {
         let slave = &self.sides.facets[f];
         let SlaveFacet { facet, weighting, .. } = slave;
         let pairs = self.pairs.iter().filter(|pair| pair[0] == f);
@@ -181,9 +198,10 @@ impl<const D: usize> Overlaps<'_, D> {
             dualise_facet(facet, self.area(pair), &mut parts);
         }
         for ([_, m], sums) in &parts {
-            let (own, other) = (&facet.face.nodes, &self.sides.master[*m].face.nodes);
+            let own = (facet.face.nodes.as_slice(), self.normals.as_slice());
+            let other = &self.sides.master[*m].face.nodes;
             for (a, &p) in weighting.points.iter().enumerate() {
-                weighting.sum(a, |share, b| rows[p].add(share, [own, other], [&sums.own[b], &sums.other[b]]));
+                weighting.sum(a, |share, b| rows[p].add(share, own, other, [&sums.own[b], &sums.other[b]]));
                 weighting.sum(a, |share, b| rows[p].add_points(share, slave, &sums.own[b]));
             }
         }

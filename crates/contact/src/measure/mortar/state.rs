@@ -17,6 +17,8 @@ pub(super) struct Point {
     pub(super) weights: Vec<f64>,
     /// Weights s_k of the last commit.
     pub(super) then: Vec<f64>,
+    /// Components of the averaged distance along the frame at the last commit \[m\].
+    pub(super) apart: [f64; 2],
     pub(super) area: f64,
     /// Approximate area if all its facets face the master.
     pub(super) whole: f64,

@@ -7,8 +7,12 @@
 //! Any partition of unity transmits a uniform pressure exactly, because `Σ_A ψ_A p = p`. A non-negative one also excludes
 //! tensile tractions between the nodes.
 
-use super::facet::NODES;
+use super::facet::{Facet, NODES};
+use super::rule::Rule;
+use crate::SegmentKind;
+use crate::shape::{MOST_NODES, shape};
 use crate::spec::Segment;
+use crate::vector::axpy;
 
 /// Functions ψ_a = Σ_b c_ab λ_b on one facet, one row for each of its points, of the functions λ_b of its corners.
 #[derive(Clone, Debug)]
@@ -72,12 +76,45 @@ impl Weighting {
             add(share, b);
         }
     }
+
+    /// Integrals of the functions of points times those of the face, over a facet in the natural coordinates of the face, a row for each
+    /// point. They are weighted with a `radius`, which depends on the functions of the face.
+    pub(super) fn products(
+        &self,
+        facet: &Facet,
+        rule: &Rule,
+        radius: impl Fn(&[f64; MOST_NODES]) -> f64,
+    ) -> Vec<[f64; MOST_NODES]> {
+        let mut with_corners = [[0.0; MOST_NODES]; NODES];
+        for (xi, weight) in quadrature(facet.kind, rule) {
+            let of_face = shape(facet.face.kind, facet.face.at(&xi)).value;
+            let weight = weight * facet.face.scale() * radius(&of_face);
+            for (row, corner) in with_corners.iter_mut().zip(shape(facet.kind, xi).value) {
+                axpy(row, weight * corner, &of_face);
+            }
+        }
+        let row = |a: usize| {
+            let mut out = [0.0; MOST_NODES];
+            self.sum(a, |share, b| axpy(&mut out, share, &with_corners[b]));
+            out
+        };
+        (0..self.points.len()).map(row).collect()
+    }
+}
+
+/// Natural coordinates and weights of a rule on a facet.
+fn quadrature(kind: SegmentKind, rule: &Rule) -> Vec<([f64; 2], f64)> {
+    let line = || rule.line.iter().map(|[t, w]| (2.0 * t - 1.0, 2.0 * w));
+    match kind {
+        SegmentKind::Tri3 => rule.triangle.iter().map(|([_, s, t], w)| ([*s, *t], *w)).collect(),
+        SegmentKind::Seg2 => line().map(|(s, w)| ([s, 0.0], w)).collect(),
+        _ => line().flat_map(|(s, v)| line().map(move |(t, w)| ([s, t], v * w))).collect(),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SegmentKind;
     use crate::measure::mortar::facet::parts;
 
     /// Sums of the coefficients of each corner over all points.
