@@ -1,7 +1,8 @@
 //! A hub pressed into a rim (Lamé), on unequal faces of second order with friction.
 
+use super::body_plots;
 use super::texts::{BodyRun, simulate_in};
-use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_vary::Change::{self, With, Without};
 use asperity_vary::SceneText;
 
@@ -82,6 +83,7 @@ const SLIDING: [Sliding; 2] = [
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = pressure();
     let mut rows = Vec::new();
+    let mut plot = Plot::xy("Error of the pressure", "size of the hub's cells [m]", "relative, L2").log_log();
     for meshes in [&PLANE, &SPACE] {
         for (sliding, local) in SLIDING.iter().zip(&meshes.local) {
             let mut fits = Vec::new();
@@ -90,9 +92,16 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 rows.push(fit.row(meshes.name, sliding.name, size));
                 fits.push((size, fit));
             }
+            let errors: Vec<(f64, f64)> = fits.iter().map(|(size, fit)| (*size, fit.scatter)).collect();
+            plot = plot.series(Series::marked(format!("{}, {} sliding", meshes.name, sliding.name), &errors));
             claim(ledger, (meshes, local), sliding, &fits, exact);
+            if let Some((_, fit)) = fits.first().filter(|_| rows.len() == fits.len()) {
+                let picture = body_plots::recorded(&fit.done.record, "press")?;
+                ledger.picture("Hub and rim", picture, "Mises stress, tri6, small sliding, coarsest mesh.");
+            }
         }
     }
+    ledger.plot(plot);
     let head = ["elements", "sliding", "h [m]", "mean", "L2", "shear", "slipping", "iterations"];
     ledger.table("errors of the pressure, and shear, over the exact pressure", &head, rows);
     ledger.note(format!("Exact pressure on the hub: {:.4} MPa.", exact * 1e-6));
