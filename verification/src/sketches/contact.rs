@@ -262,10 +262,10 @@ fn rings() -> Sketch {
 
 fn press_fit() -> Sketch {
     quarters(12.0, 24.0, 48.0)
-        .note((63.0, 52.0), "overlap 0.4 mm")
-        .note((63.0, 46.0), "r = 0.2, 0.4, 0.8 m")
-        .note((63.0, 40.0), "E = 200 GPa, ν = 0.3")
-        .note((63.0, 34.0), "μ = 0.3")
+        .note((67.0, 52.0), "overlap 0.4 mm")
+        .note((67.0, 46.0), "r = 0.2, 0.4, 0.8 m")
+        .note((67.0, 40.0), "E = 200 GPa, ν = 0.3")
+        .note((67.0, 34.0), "μ = 0.3")
 }
 
 /// Quarters of two rings, one inside the other.
