@@ -191,7 +191,7 @@ fn claim(
         .relative(meshes.mean)
         .evidence(Evidence::Exact, LAME)
         .because(
-            "some times the mean gap h^4/(720 R^3) of faces of second order from the arc, over the overlap",
+            "a few times the mean gap h^4/(720 R^3) of faces of second order from the arc, over the overlap",
         )
         .why_not_tighter("faces are of unequal size")
         .covers(&covers)
