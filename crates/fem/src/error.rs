@@ -152,7 +152,7 @@ pub enum FemError {
         pivot: Pivot,
     },
     /// The iterative solver gave up.
-    #[error("conjugate gradients: {0}")]
+    #[error("iterative solution: {0}")]
     NotConverged(crate::outcome::Outcome),
     /// A symmetric matrix that the direct solver could not factor.
     #[error(transparent)]

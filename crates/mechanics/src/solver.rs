@@ -34,6 +34,13 @@ pub enum Method {
     Sparse,
     /// The same where the matrix is symmetric; where it is not, GMRES preconditioned by the Cholesky factor of a symmetric matrix near it.
     Preconditioned,
+    /// GMRES preconditioned with smoothed aggregation of a symmetric matrix near the tangent.
+    Aggregated {
+        /// Residual over the load at which a solution is accepted.
+        tolerance: f64,
+        /// Iterations after which the solution is abandoned.
+        most_iterations: usize,
+    },
     /// Conjugate gradients preconditioned with smoothed aggregation.
     Iterative {
         /// Relative residual at which a solution is accepted.

@@ -44,7 +44,7 @@ impl System {
             Store::Preconditioned(store) => {
                 store.matrix().map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix()))
             }
-            Store::Iterative(_) => None,
+            Store::Iterative(_) | Store::Aggregated(_) => None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The linear system of a step: tangents of all terms on the free degrees of freedom and its solution: dense, sparse by a
 //! factorisation, or by iterations (conjugate gradients, or GMRES where it is unsymmetric).
 
+mod aggregated;
 mod dense;
 mod dense_factor;
 mod direct;
@@ -9,6 +10,7 @@ mod free_modes;
 mod iterative;
 mod memory;
 mod preconditioned;
+mod renewal;
 mod schur_complement;
 mod symmetric;
 mod symmetry;
@@ -17,6 +19,7 @@ use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
 use crate::term::{ForwardTerm, Linearized, Pattern, PatternId};
+use aggregated::{AggregatedSystem, Tangent};
 use dense::DenseStore;
 use direct::SparseStore;
 pub use direct::{Analysis, LowerTriangle};
@@ -69,7 +72,7 @@ pub struct System {
     pub indefinite: usize,
     /// Solves so far.
     pub solves: usize,
-    /// Iterations of conjugate gradients so far.
+    /// Iterations of conjugate gradients and of GMRES so far.
     pub iterations: usize,
 }
 
@@ -80,6 +83,7 @@ enum Store {
     Sparse(Box<SparseStore>),
     Preconditioned(Box<PreconditionedStore>),
     Iterative(Box<IterativeStore>),
+    Aggregated(Box<dyn AggregatedSystem>),
 }
 
 impl System {
@@ -105,6 +109,13 @@ impl System {
             Symmetry::Positive,
             Store::Iterative(Box::new(IterativeStore::new(iterative))),
         )
+    }
+
+    /// A system solved by GMRES with smoothed aggregation of a symmetric positive definite matrix near its own.
+    #[must_use]
+    pub fn aggregated(equations: Equations, iterative: Iterative) -> Self {
+        let store = Store::Aggregated(aggregated::system(iterative));
+        Self::with_store(equations, Symmetry::General, store)
     }
 
     fn with_store(equations: Equations, symmetry: Symmetry, store: Store) -> Self {
@@ -141,7 +152,7 @@ impl System {
         match &mut self.store {
             Store::Sparse(store) => store.forget(),
             Store::Preconditioned(store) => store.forget(),
-            Store::Dense(_) | Store::Flexibility(_) | Store::Iterative(_) => {}
+            Store::Dense(_) | Store::Flexibility(_) | Store::Iterative(_) | Store::Aggregated(_) => {}
         }
     }
 
@@ -150,6 +161,7 @@ impl System {
         match &mut self.store {
             Store::Preconditioned(store) => store.begin_step(),
             Store::Flexibility(store) => store.begin_step(),
+            Store::Aggregated(store) => store.begin_step(),
             Store::Dense(_) | Store::Sparse(_) | Store::Iterative(_) => {}
         }
     }
@@ -161,7 +173,7 @@ impl System {
         match &mut self.store {
             Store::Sparse(store) => store.prepare(memory, analysis),
             Store::Preconditioned(store) => **store = PreconditionedStore::new(memory, analysis),
-            Store::Dense(_) | Store::Flexibility(_) | Store::Iterative(_) => {}
+            Store::Dense(_) | Store::Flexibility(_) | Store::Iterative(_) | Store::Aggregated(_) => {}
         }
         self
     }
@@ -250,7 +262,7 @@ impl System {
         }
         let mut own: Vec<Option<Vec<f64>>> = Vec::new();
         let mut offset = 0;
-        for term in &mut *terms {
+        for (number, term) in terms.iter_mut().enumerate() {
             let values = term.pattern().values();
             if always || term.constant_tangent().is_none() {
                 self.buffer.clear();
@@ -281,6 +293,19 @@ impl System {
                         near_of(term, &mut self.buffer);
                         symmetrise(term.pattern(), &mut self.buffer);
                         store.add_near(first, &self.buffer);
+                    }
+                }
+                Store::Aggregated(store) => {
+                    let own =
+                        Tangent { pattern: term.pattern(), values: tangent, constant: constant.is_some() };
+                    let of_matrix = own.constant;
+                    if let Err(error) = store.set(number, own, &self.equations) {
+                        return Ok(Err(error));
+                    }
+                    if store.is_due() && !of_matrix {
+                        near_of(term, &mut self.buffer);
+                        symmetrise(term.pattern(), &mut self.buffer);
+                        store.set_near(number, &self.buffer);
                     }
                 }
                 Store::Iterative(_) => {
@@ -334,7 +359,7 @@ impl System {
                 store.clear();
             }
             Store::Preconditioned(store) => store.begin(&patterns, &self.equations, self.symmetry)?,
-            Store::Iterative(_) => {}
+            Store::Iterative(_) | Store::Aggregated(_) => {}
         }
         Ok(())
     }
@@ -347,6 +372,7 @@ impl System {
             Store::Flexibility(store) => (store.factor()?, false),
             Store::Sparse(store) => (1, store.factor(self.symmetry)?),
             Store::Preconditioned(store) => store.factor()?,
+            Store::Aggregated(store) => (store.finish(&self.equations)?, false),
             Store::Iterative(_) => (0, false),
         };
         self.indefinite += usize::from(indefinite);
@@ -361,7 +387,7 @@ impl System {
             Store::Sparse(store) => (store.diagonal(), store.empty_column()),
             Store::Preconditioned(store) => (store.matrix().diagonal(), store.matrix().empty_column()),
             // Pairs may hold what is not held otherwise: the solution tells.
-            Store::Flexibility(_) | Store::Iterative(_) => return Ok(()),
+            Store::Flexibility(_) | Store::Iterative(_) | Store::Aggregated(_) => return Ok(()),
         };
         let unheld = match self.symmetry {
             Symmetry::General => unheld,
@@ -420,43 +446,35 @@ impl System {
     fn attempt(&mut self, rhs: &mut [f64], again: bool) -> Result<bool, FemError> {
         let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let load = size(rhs);
-        let solved = match &mut self.store {
-            Store::Dense(store) => store.solve(rhs),
-            Store::Sparse(store) => store.solve(rhs),
-            Store::Flexibility(store) => match store.solve(rhs) {
-                None => false,
-                Some((outcome, made)) => {
-                    self.iterations += outcome.map_or(0, |outcome| outcome.report().iterations);
-                    self.factorisations += made;
-                    true
-                }
-            },
-            Store::Preconditioned(store) => match store.solve(rhs, again)? {
-                None => false,
-                Some(Solution::Direct) => true,
-                Some(Solution::Iterated { outcome, made }) => {
-                    self.iterations += outcome.report().iterations;
-                    self.factorisations += made;
-                    true
-                }
-                Some(Solution::Distant { outcome }) => {
-                    self.iterations += outcome.report().iterations;
-                    return Ok(false);
-                }
-            },
+        let direct = |solved: bool| solved.then_some(Solution::Direct);
+        let solution = match &mut self.store {
+            Store::Dense(store) => direct(store.solve(rhs)),
+            Store::Sparse(store) => direct(store.solve(rhs)),
+            Store::Flexibility(store) => store.solve(rhs).map(|(outcome, made)| {
+                self.factorisations += made;
+                outcome.map_or(Solution::Direct, |outcome| Solution::Iterated { outcome, made: 0 })
+            }),
+            Store::Preconditioned(store) => store.solve(rhs, again)?,
+            Store::Aggregated(store) => store.solve(rhs, again)?,
             Store::Iterative(store) => match store.solve(rhs) {
-                None => false,
-                Some(outcome) => {
+                Some(outcome) if !outcome.converged() => {
                     self.iterations += outcome.report().iterations;
-                    if !outcome.converged() {
-                        return Err(FemError::NotConverged(outcome));
-                    }
-                    true
+                    return Err(FemError::NotConverged(outcome));
                 }
+                solved => solved.map(|outcome| Solution::Iterated { outcome, made: 0 }),
             },
         };
-        if !solved {
-            return Err(FemError::Factorisation("there is no factor to solve with".into()));
+        match solution {
+            None => return Err(FemError::Factorisation("there is no factor to solve with".into())),
+            Some(Solution::Direct) => {}
+            Some(Solution::Iterated { outcome, made }) => {
+                self.iterations += outcome.report().iterations;
+                self.factorisations += made;
+            }
+            Some(Solution::Distant { outcome }) => {
+                self.iterations += outcome.report().iterations;
+                return Ok(false);
+            }
         }
         self.solves += 1;
         let pivot = match rhs.iter().position(|x| !x.is_finite()) {

@@ -6,6 +6,7 @@
 
 use super::Analysis;
 use super::direct::SparseStore;
+use super::renewal::Renewal;
 use super::symmetry::Symmetry;
 use crate::dof::Equations;
 use crate::error::FemError;
@@ -35,16 +36,11 @@ pub(super) struct PreconditionedStore {
     /// Memory that a factorisation may use \[bytes\].
     memory: usize,
     symmetry: Symmetry,
-    /// True if the preconditioner is to be made from the next matrix.
-    due: bool,
+    renewal: Renewal,
     /// True if the matrices of the step are factored as they are, since iterations failed with a preconditioner of their own.
     factored: bool,
     /// True if the present matrix is factored as it is, since the symmetric one is not positive definite.
     exact: bool,
-    /// Iterations of the first solution with the preconditioner.
-    fresh: Option<usize>,
-    /// Iterations that later solutions took beyond it.
-    excess: usize,
 }
 
 impl PreconditionedStore {
@@ -52,17 +48,7 @@ impl PreconditionedStore {
         let mut near = SparseStore::default();
         near.prepare(memory, analysis);
         let (whole, symmetry) = (SparseStore::default(), Symmetry::General);
-        Self {
-            whole,
-            near,
-            memory,
-            symmetry,
-            due: true,
-            factored: false,
-            exact: false,
-            fresh: None,
-            excess: 0,
-        }
+        Self { whole, near, memory, symmetry, renewal: Renewal::new(), factored: false, exact: false }
     }
 
     /// Forgets patterns and factors.
@@ -74,12 +60,12 @@ impl PreconditionedStore {
 
     /// The next matrix is that of another step, whose preconditioner depends on nothing before it.
     pub fn begin_step(&mut self) {
-        (self.due, self.factored) = (true, false);
+        (self.renewal.due, self.factored) = (true, false);
     }
 
     /// True if the next assembly needs the values of the symmetric matrix as well.
     pub fn is_due(&self) -> bool {
-        self.due && self.symmetry == Symmetry::General
+        self.renewal.due && self.symmetry == Symmetry::General
     }
 
     /// Prepares an assembly of these patterns.
@@ -98,7 +84,7 @@ impl PreconditionedStore {
         self.exact = false;
         self.whole.renew(patterns, equations, symmetry)?;
         self.whole.clear();
-        if self.due {
+        if self.renewal.due {
             self.near.renew(patterns, equations, Symmetry::Positive)?;
             self.near.clear();
         }
@@ -131,11 +117,11 @@ impl PreconditionedStore {
             self.whole.factor(Symmetry::General)?;
             return Ok((1, false));
         }
-        if !self.due {
+        if !self.renewal.due {
             return Ok((0, false));
         }
         match self.near.factor(Symmetry::Positive) {
-            Ok(_) => (self.due, self.fresh, self.excess) = (false, None, 0),
+            Ok(_) => self.renewal.done(),
             // Softening: the matrix itself decides, and the next one is tried anew.
             Err(FemError::Direct(DirectError::NotPositive(_))) if self.admits_lu() => {
                 self.whole.factor(Symmetry::General)?;
@@ -151,14 +137,6 @@ impl PreconditionedStore {
         self.near.cholesky().map_or(usize::MAX, |symbolic| {
             (symbolic.operations() / (FACTORISATION_RATE * 4.0 * symbolic.stored() as f64)) as usize
         })
-    }
-
-    /// Bounds of a solution after which another factor may be made. What solutions with one factor take beyond the first adds up to the
-    /// cost of another at most, so that the whole costs at most twice what it would have cost with the best choice.
-    fn bounds(&self) -> Bounds {
-        let Some(fresh) = self.fresh else { return BOUNDS };
-        let most = fresh.saturating_add(self.worth().saturating_sub(self.excess));
-        Bounds { most_iterations: most.min(BOUNDS.most_iterations), paced: true, ..BOUNDS }
     }
 
     /// True if memory suffices for LU.
@@ -177,18 +155,14 @@ impl PreconditionedStore {
         }
         let Some(map) = &self.whole.map else { return Ok(None) };
         let load = rhs.to_vec();
-        let bounds = if again { self.bounds() } else { BOUNDS };
-        let outcome = gmres::solve(&System { map, near: &self.near }, rhs, bounds);
-        let report = outcome.report();
-        let fresh = *self.fresh.get_or_insert(report.iterations);
-        self.excess += report.iterations.saturating_sub(fresh);
-        self.due = self.excess > self.worth();
-        if bounds.paced && !outcome.converged() {
+        let worth = self.worth();
+        let bounds = if again { self.renewal.bounds(BOUNDS, worth) } else { BOUNDS };
+        let outcome = gmres::solve(&mut System { map, near: &self.near }, rhs, bounds);
+        if self.renewal.note(&outcome, bounds, worth) {
             rhs.copy_from_slice(&load);
-            self.due = true;
             return Ok(Some(Solution::Distant { outcome }));
         }
-        if report.euclidean <= USEFUL {
+        if outcome.report().euclidean <= USEFUL {
             return Ok(Some(Solution::Iterated { outcome, made: 0 }));
         }
         if !self.admits_lu() {
@@ -218,11 +192,11 @@ struct System<'a> {
 }
 
 impl PreconditionedSystem for System<'_> {
-    fn multiply(&self, x: &[f64], y: &mut [f64]) {
+    fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
         multiply(self.map.matrix(), x, y);
     }
 
-    fn precondition(&self, r: &mut [f64]) {
+    fn precondition(&mut self, r: &mut [f64]) {
         self.near.solve(r);
     }
 }

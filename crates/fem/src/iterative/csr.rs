@@ -84,6 +84,40 @@ impl<const R: usize, const C: usize> BlockCsr<R, C> {
         });
     }
 
+    /// The sum of matrices of one shape.
+    #[must_use]
+    pub fn sum(parts: &[&Self]) -> Self {
+        let rows = parts.first().map_or(0, |p| p.rows());
+        let mut sum = Self {
+            width: parts.first().map_or(0, |p| p.width),
+            starts: Vec::with_capacity(rows + 1),
+            columns: Vec::new(),
+            values: Vec::new(),
+        };
+        sum.starts.push(0);
+        let mut entries: Vec<(u32, &Block<R, C>)> = Vec::new();
+        for row in 0..rows {
+            entries.clear();
+            for part in parts {
+                let (columns, values) = part.row(row);
+                entries.extend(columns.iter().copied().zip(values));
+            }
+            entries.sort_by_key(|(column, _)| *column);
+            let first = sum.columns.len();
+            for (column, value) in &entries {
+                if sum.columns.len() > first && sum.columns.last() == Some(column) {
+                    let last = sum.values.last_mut().into_iter().flatten().flatten();
+                    last.zip(value.as_flattened()).for_each(|(sum, value)| *sum += value);
+                } else {
+                    sum.columns.push(*column);
+                    sum.values.push(**value);
+                }
+            }
+            sum.starts.push(sum.columns.len());
+        }
+        sum
+    }
+
     /// The transpose.
     #[must_use]
     pub fn transposed(&self) -> BlockCsr<C, R> {

@@ -33,14 +33,14 @@ impl Bounds {
 /// An unsymmetric matrix and an approximation of its inverse, by their actions.
 pub trait PreconditionedSystem {
     /// `y = A x`.
-    fn multiply(&self, x: &[f64], y: &mut [f64]);
+    fn multiply(&mut self, x: &[f64], y: &mut [f64]);
 
     /// `r = M⁻¹ r`.
-    fn precondition(&self, r: &mut [f64]);
+    fn precondition(&mut self, r: &mut [f64]);
 }
 
 /// Solves `A x = b` from zero, in place of b. Both residuals of the report are |b - A x|/|b|, recomputed from x.
-pub fn solve(system: &impl PreconditionedSystem, b: &mut [f64], bounds: Bounds) -> Outcome {
+pub fn solve(system: &mut impl PreconditionedSystem, b: &mut [f64], bounds: Bounds) -> Outcome {
     let load = norm(b);
     let mut x = vec![0.0; b.len()];
     let mut residual = b.to_vec();
@@ -86,7 +86,7 @@ struct Cycle {
 impl Cycle {
     /// Extends the basis after `before` iterations of a solution for a load of this size.
     fn run(
-        system: &impl PreconditionedSystem,
+        system: &mut impl PreconditionedSystem,
         residual: &[f64],
         load: f64,
         before: usize,
@@ -192,11 +192,11 @@ mod tests {
     }
 
     impl PreconditionedSystem for Chain {
-        fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
             y.copy_from_slice((&self.0 * DVector::from_column_slice(x)).as_slice());
         }
 
-        fn precondition(&self, r: &mut [f64]) {
+        fn precondition(&mut self, r: &mut [f64]) {
             r.iter_mut().enumerate().for_each(|(k, r)| *r /= self.0[(k, k)]);
         }
     }
@@ -205,12 +205,12 @@ mod tests {
 
     #[test]
     fn solution_is_that_of_lu_with_and_without_restarts() {
-        let chain = Chain::new(60);
+        let mut chain = Chain::new(60);
         let load: Vec<f64> = (0..60).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
         let expected = chain.0.clone().lu().solve(&DVector::from_column_slice(&load)).unwrap();
         for restart in [200, 7] {
             let mut x = load.clone();
-            let outcome = solve(&chain, &mut x, Bounds { restart, ..BOUNDS });
+            let outcome = solve(&mut chain, &mut x, Bounds { restart, ..BOUNDS });
             assert!(outcome.converged(), "{outcome}");
             // The condition number is below 100.
             let error = x.iter().zip(&expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
@@ -221,30 +221,32 @@ mod tests {
     #[test]
     fn space_of_n_vectors_is_exhausted_after_n_iterations() {
         let mut x = vec![1.0, -2.0, 0.5];
-        let outcome = solve(&Chain::new(3), &mut x, Bounds { tolerance: 1e-14, ..BOUNDS });
+        let outcome = solve(&mut Chain::new(3), &mut x, Bounds { tolerance: 1e-14, ..BOUNDS });
         assert!(outcome.converged() && outcome.report().iterations <= 3, "{outcome}");
         let mut x = vec![0.0; 3];
-        assert_eq!(solve(&Chain::new(3), &mut x, BOUNDS).report().iterations, 0);
+        assert_eq!(solve(&mut Chain::new(3), &mut x, BOUNDS).report().iterations, 0);
         assert_eq!(x, [0.0; 3]);
     }
 
     #[test]
     fn what_does_not_converge_says_so() {
         let load: Vec<f64> = (0..60).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
-        let chain = Chain::new(60);
+        let mut chain = Chain::new(60);
         let few = Bounds { most_iterations: 5, ..BOUNDS };
-        assert!(matches!(solve(&chain, &mut load.clone(), few), Outcome::Exhausted(r) if r.iterations == 5));
+        assert!(
+            matches!(solve(&mut chain, &mut load.clone(), few), Outcome::Exhausted(r) if r.iterations == 5)
+        );
         let paced = Bounds { most_iterations: 12, paced: true, ..BOUNDS };
-        let outcome = solve(&chain, &mut load.clone(), paced);
+        let outcome = solve(&mut chain, &mut load.clone(), paced);
         assert!(matches!(outcome, Outcome::Exhausted(r) if r.iterations == PACED), "{outcome}");
         // A cyclic shift: no combination of fewer than n images comes nearer.
         let shift = Chain(DMatrix::from_fn(60, 60, |i, j| if (i + 1) % 60 == j { 1.0 } else { 0.0 }));
         let mut unit = vec![0.0; 60];
         unit[0] = 1.0;
-        let outcome = solve(&BareChain(shift), &mut unit, Bounds { restart: 20, ..BOUNDS });
+        let outcome = solve(&mut BareChain(shift), &mut unit, Bounds { restart: 20, ..BOUNDS });
         assert!(matches!(outcome, Outcome::Stalled(r) if r.iterations == 20), "{outcome}");
         let broken = Chain(DMatrix::from_element(60, 60, f64::NAN));
-        let outcome = solve(&BareChain(broken), &mut load.clone(), BOUNDS);
+        let outcome = solve(&mut BareChain(broken), &mut load.clone(), BOUNDS);
         assert!(!outcome.converged(), "{outcome}");
     }
 
@@ -252,10 +254,10 @@ mod tests {
     struct BareChain(Chain);
 
     impl PreconditionedSystem for BareChain {
-        fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
             self.0.multiply(x, y);
         }
 
-        fn precondition(&self, _r: &mut [f64]) {}
+        fn precondition(&mut self, _r: &mut [f64]) {}
     }
 }

@@ -202,6 +202,12 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
         })
     }
 
+    fn rigid_motions(&self) -> Result<NearNull, SetUpError> {
+        let model = &self.problem.model;
+        let components = model.idealisation.components();
+        NearNull::new(&model.mesh.nodes, components).ok_or(SetUpError::RigidMotions { components })
+    }
+
     /// Empty system for the solution method of the problem.
     fn linear_system(&self) -> Result<System, SetUpError> {
         let equations = self.constraints.equations(self.state.u.len());
@@ -209,13 +215,15 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             true => equations,
             false => equations.with_groups(self.groups.iter().map(Vec::as_slice)),
         };
-        let (model, solver) = (&self.problem.model, &self.problem.solver);
+        let solver = &self.problem.solver;
         Ok(match solver.method {
             Method::Iterative { tolerance, most_iterations } => {
-                let components = model.idealisation.components();
-                let near_null = NearNull::new(&model.mesh.nodes, components)
-                    .ok_or(SetUpError::RigidMotions { components })?;
+                let near_null = self.rigid_motions()?;
                 System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
+            }
+            Method::Aggregated { tolerance, most_iterations } => {
+                let near_null = self.rigid_motions()?;
+                System::aggregated(equations, Iterative { near_null, tolerance, most_iterations })
             }
             Method::Dense => System::new(equations, Storage::Dense),
             Method::Flexibility => System::new(equations, Storage::Flexibility),
@@ -285,8 +293,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             CellBlock::Nonlinear(block) => block.model().kinematics == Kinematics::UpdatedLagrangian,
         };
         let knows = problem.mass.is_none() && problem.interfaces.is_empty() && problem.path == Path::Full;
-        let direct =
-            !matches!(problem.solver.method, Method::Iterative { .. }) && self.state.u.len() <= JUDGED;
+        let direct = !matches!(problem.solver.method, Method::Iterative { .. } | Method::Aggregated { .. })
+            && self.state.u.len() <= JUDGED;
         if !(knows && direct && problem.model.blocks.iter().any(follows)) {
             return None;
         }

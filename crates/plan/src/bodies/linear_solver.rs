@@ -10,12 +10,16 @@ use asperity_fem::assembly::{FACTORED_COMPONENTS, LowerTriangle, Symmetry};
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
 use asperity_fem::{FemError, condense};
-use asperity_mechanics::solver::{Analyses, Method, Solver, local, moving_mortar, retained, symmetry};
+use asperity_mechanics::solver::{Analyses, Method, Solver, local, retained, symmetry};
 use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Spring, Stage, Stepping};
 use asperity_scene::defaults;
 
 /// Memory of the iterative method over that of its matrix; 2.5 to 3.8 in the benchmark.
 const HIERARCHY: usize = 4;
+/// The same with a matrix and its neighbour of which levels are made, and the basis of GMRES.
+const AGGREGATED: usize = 6;
+/// Residual over the load of a direction of Newton's method: with smaller ones it takes no fewer iterations.
+const DIRECTION: f64 = 1e-5;
 /// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
 /// estimated from counts, and the run does the analysis, unless the estimate is so near what is allowed that it does not decide.
 const ANALYSED: usize = 50_000;
@@ -179,12 +183,12 @@ impl<const D: usize> Choice<'_, D> {
         if bytes <= self.memory() {
             return Ok(self.direct(prepared, bytes));
         }
-        if method == Asked::Auto && self.linear_in_space() {
+        if method == Asked::Auto && self.may_iterate() {
             let why = format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
             return self.iterative(why);
         }
         let what = format!("the factorisation of {} degrees of freedom", self.model.dofs());
-        Err(self.too_much(&what, bytes, unsymmetric.is_none()))
+        Err(self.too_much(&what, bytes, unsymmetric.is_none() || (self.definite() && self.corrects())))
     }
 
     /// True if LU of an unsymmetric matrix takes so long that iterations with a Cholesky factor are better, and can take its place.
@@ -193,9 +197,8 @@ impl<const D: usize> Choice<'_, D> {
             Analyses::System(analysis) => analysis.symbolic().operations() > LU_AVOIDED,
             _ => true,
         };
-        let definite = self.interfaces.iter().all(|i| i.unknowns == 0);
         let asked = self.scene.solver.method() == Asked::Direct;
-        large && definite && !asked && !self.stepping.is_forward()
+        large && self.definite() && !asked && !self.stepping.is_forward()
     }
 
     /// Memory of the matrix \[bytes\].
@@ -221,8 +224,19 @@ impl<const D: usize> Choice<'_, D> {
     }
 
     /// True if the iterative method is a remedy when factors do not fit into memory.
-    fn linear_in_space(&self) -> bool {
-        D == 3 && self.interfaces.is_empty() && self.model.is_linear() && self.pulled().is_none()
+    fn may_iterate(&self) -> bool {
+        let linear = self.interfaces.is_empty() && self.model.is_linear();
+        D == 3 && self.pulled().is_none() && self.definite() && (linear || self.corrects())
+    }
+
+    /// True if steps look for equilibrium, whatever a solution leaves.
+    fn corrects(&self) -> bool {
+        self.scene.inertia().is_none() && !self.stepping.is_forward()
+    }
+
+    /// True if multipliers are no unknowns, which make the matrix indefinite.
+    fn definite(&self) -> bool {
+        self.interfaces.iter().all(|i| i.unknowns == 0)
     }
 
     /// Equation numbering of the first stage.
@@ -281,40 +295,44 @@ impl<const D: usize> Choice<'_, D> {
                 "use `method = \"direct\"`, or leave it out",
             ));
         }
-        if let Some(stage) = self.unsymmetric() {
-            let reason = if self.interfaces.iter().any(|i| i.unknowns > 0) {
-                "multipliers that are unknowns (\"augmented-lagrangian\") make it indefinite".into()
-            } else if self.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.bonded())) {
-                format!("friction in stage `{}` makes its matrix unsymmetric", stage.name)
-            } else if self.interfaces.iter().any(moving_mortar) {
-                "a mortar interface with finite sliding makes its matrix unsymmetric".into()
-            } else {
-                "large deformation makes its matrix unsymmetric".into()
-            };
+        let given = solver.method.as_ref().map_or(0..0, Spanned::span);
+        if !self.definite() {
             return Err(Diagnostic::at(
-                solver.method.as_ref().map_or(0..0, Spanned::span),
-                format!("the iterative method needs a symmetric matrix, but {reason}"),
+                given,
+                "the iterative method needs a matrix that is nearly positive definite, but multipliers that are unknowns \
+                 (\"augmented-lagrangian\") make it indefinite",
                 "use `method = \"direct\"`, or leave it out",
             ));
         }
-        let bytes = HIERARCHY * self.matrix();
+        let symmetric = self.unsymmetric().is_none();
+        if !symmetric && self.stepping.is_forward() {
+            return Err(Diagnostic::at(
+                given,
+                "the iterative method leaves residuals that steps of \"static-explicit\" do not correct",
+                "use `method = \"direct\"`, or leave it out",
+            ));
+        }
+        let bytes = if symmetric { HIERARCHY } else { AGGREGATED } * self.matrix();
         if bytes > self.memory() {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
             return Err(self.too_much(&what, bytes, false));
         }
-        let tolerance = solver.tolerance.as_ref().map_or(defaults::SOLVER_TOLERANCE, |t| *t.get_ref());
+        let tolerance = solver.tolerance.as_ref().map(|t| *t.get_ref());
         let most_iterations =
             solver.most_iterations.as_ref().map_or(defaults::MOST_ITERATIONS, |m| *m.get_ref());
-        Ok(Solver {
-            method: Method::Iterative { tolerance, most_iterations },
-            memory: self.memory(),
-            prepared: Analyses::Nothing,
-            bytes,
-            operations: None,
-            why: format!(
-                "iterative: {why}; conjugate gradients with smoothed aggregation to a residual of {tolerance:e}"
-            ),
-        })
+        let (method, how) = if symmetric {
+            let tolerance = tolerance.unwrap_or(defaults::SOLVER_TOLERANCE);
+            (
+                Method::Iterative { tolerance, most_iterations },
+                format!("conjugate gradients to {tolerance:e}"),
+            )
+        } else {
+            let tolerance = tolerance.unwrap_or(DIRECTION);
+            (Method::Aggregated { tolerance, most_iterations }, format!("GMRES to {tolerance:e}"))
+        };
+        let why = format!("iterative: {why}; {how} of the load, with smoothed aggregation");
+        let (memory, prepared) = (self.memory(), Analyses::Nothing);
+        Ok(Solver { method, memory, prepared, bytes, operations: None, why })
     }
 
     /// Error for a system that is too large to be numbered.

@@ -30,12 +30,12 @@ pub struct Solver {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Direct if it fits into memory; otherwise iterative for linear bodies in space without interfaces.
+    /// Direct if it fits into memory; otherwise iterative in space, for steps to equilibrium.
     #[default]
     Auto,
     /// Factorisation.
     Direct,
-    /// Conjugate gradients with smoothed aggregation.
+    /// Conjugate gradients, or GMRES for unsymmetric matrices, with smoothed aggregation.
     Iterative,
 }
 

@@ -214,12 +214,12 @@ impl FlexibilityStore {
         } else {
             let undisturbed = forces.clone();
             let flexibility = compliance.matrix.as_ref();
-            let system = System { stiffness, flexibility, factor };
+            let mut system = System { stiffness, flexibility, factor };
             // With a factor of its own matrix an iteration gains several decades.
             let own = factor.made_of == *stiffness;
             let left = if own { FORCING[0] } else { forcing } * norm(&load);
             let tolerance = (left / norm(&undisturbed)).min(MOST_LEFT);
-            let found = gmres::solve(&system, &mut forces, factor.bounds(tolerance));
+            let found = gmres::solve(&mut system, &mut forces, factor.bounds(tolerance));
             if !own {
                 factor.count(found.report().iterations, -tolerance.log10());
             }
@@ -305,14 +305,14 @@ struct System<'a> {
 }
 
 impl PreconditionedSystem for System<'_> {
-    fn multiply(&self, x: &[f64], y: &mut [f64]) {
+    fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
         let mut relative = vec![0.0; x.len()];
         multiply_symmetric(self.flexibility, x, &mut relative);
         self.stiffness.multiply(&relative, y);
         y.iter_mut().zip(x).for_each(|(y, x)| *y += x);
     }
 
-    fn precondition(&self, r: &mut [f64]) {
+    fn precondition(&mut self, r: &mut [f64]) {
         self.factor.solve(r);
     }
 }

@@ -179,9 +179,7 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
 
 /// True if the plan may choose an iterative linear solver by itself.
 pub fn may_iterate(scene: &Scene) -> bool {
-    scene.solver.method() == Method::Auto
-        && scene.interfaces.is_empty()
-        && scene.kinematics.get_ref().dimension() == 3
+    scene.solver.method() == Method::Auto && scene.kinematics.get_ref().dimension() == 3
 }
 
 /// Generated blocks of a scene.
