@@ -94,6 +94,7 @@ pub mod hertz;
 mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
+mod impact_balls;
 mod impact_bars;
 mod implicit_dynamics;
 mod interface_instability;
@@ -222,6 +223,7 @@ pub const ALL: &[Case] = &[
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,
+    impact_balls::CASE,
     impact_bars::CASE,
     implicit_dynamics::CASE,
     interface_instability::CASE,

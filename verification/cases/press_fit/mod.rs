@@ -1,4 +1,4 @@
-//! A hub pressed into a rim (Lamé), on unequal faces of second order with friction.
+//! A hub pressed into a rim, and a ball into a shell (Lamé), on unequal faces of second order with friction.
 
 use super::body_plots;
 use super::texts::{BodyRun, simulate_in};
@@ -10,7 +10,13 @@ use asperity_vary::SceneText;
 pub const CASE: Case = Case {
     name: "press_fit",
     readme: include_str!("README.md"),
-    covers: &[Capability::Mortar, Capability::Coulomb, Capability::QuadraticSolids, Capability::Triangles],
+    covers: &[
+        Capability::Mortar,
+        Capability::Coulomb,
+        Capability::QuadraticSolids,
+        Capability::Triangles,
+        Capability::Axisymmetric,
+    ],
     quick: true,
     run,
 };
@@ -20,7 +26,7 @@ const RADII: [f64; 4] = [0.2, 0.4004, 0.4, 0.8];
 const YOUNG: f64 = 200e9;
 const POISSON: f64 = 0.3;
 const PENALTY: f64 = 1e15;
-const LAME: &str = "Lamé's rings, the penalty included";
+const LAME: &str = "Lamé's rings and hollow balls, the penalty included";
 
 /// Meshes of a dimension.
 struct Meshes {
@@ -29,25 +35,41 @@ struct Meshes {
     /// Sizes of the cells of the hub \[m\].
     sizes: [f64; 3],
     changes: &'static [Change<'static>],
+    /// Displacements of hub and rim towards each other under a unit pressure \[m/Pa\].
+    yielding: fn() -> [f64; 2],
     /// Bound of the error of the mean pressure on the finest mesh.
     mean: f64,
     /// Bounds of the scatter of pressure and of shear on the finest mesh, in small and in finite sliding.
     local: [[f64; 2]; 2],
 }
 
-const PLANE: Meshes = Meshes {
-    name: "tri6",
-    file: "plane",
-    sizes: [0.08, 0.04, 0.02],
-    changes: &[
-        With("kinematics", "plane-strain"),
+/// Changes of the scene for a section of hub and rim.
+const fn section(kinematics: &'static str) -> [Change<'static>; 5] {
+    [
+        With("kinematics", kinematics),
         Without("stages[0].conditions[7]"),
         Without("stages[0].conditions[6]"),
         Without("stages[0].conditions[5]"),
         Without("stages[0].conditions[4]"),
-    ],
+    ]
+}
+
+const PLANE: Meshes = Meshes {
+    name: "tri6",
+    file: "plane",
+    sizes: [0.08, 0.04, 0.02],
+    changes: &section("plane-strain"),
+    yielding: rings,
     mean: 2e-4,
     local: [[2e-2, 1e-2], [3e-3, 2e-3]],
+};
+
+const AXIS: Meshes = Meshes {
+    name: "tri6 about the axis",
+    changes: &section("axisymmetric"),
+    yielding: balls,
+    local: [[2e-2, 1.2e-2], [3e-3, 6e-3]],
+    ..PLANE
 };
 
 const SPACE: Meshes = Meshes {
@@ -55,6 +77,7 @@ const SPACE: Meshes = Meshes {
     file: "space",
     sizes: [0.08, 0.05, 0.03],
     changes: &[],
+    yielding: rings,
     mean: 4e-4,
     local: [[2e-2, 1e-2], [6e-3, 6e-3]],
 };
@@ -81,10 +104,10 @@ const SLIDING: [Sliding; 2] = [
 ];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let exact = pressure();
     let mut rows = Vec::new();
     let mut plot = Plot::xy("Error of the pressure", "size of the hub's cells [m]", "relative, L2").log_log();
-    for meshes in [&PLANE, &SPACE] {
+    for meshes in [&PLANE, &AXIS, &SPACE] {
+        let exact = pressure(meshes);
         for (sliding, local) in SLIDING.iter().zip(&meshes.local) {
             let mut fits = Vec::new();
             for (number, &size) in (1..).zip(&meshes.sizes) {
@@ -104,19 +127,35 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger.plot(plot);
     let head = ["elements", "sliding", "h [m]", "mean", "L2", "shear", "slipping", "iterations"];
     ledger.table("errors of the pressure, and shear, over the exact pressure", &head, rows);
-    ledger.note(format!("Exact pressure on the hub: {:.4} MPa.", exact * 1e-6));
+    let [hub, ball] = [&PLANE, &AXIS].map(|meshes| 1e-6 * pressure(meshes));
+    ledger.note(format!("Exact pressure on the hub: {hub:.4} MPa; on the ball: {ball:.4} MPa."));
     Ok(())
 }
 
-/// Pressure on the hub in plane strain \[Pa\]: both rings' radial displacements and that of the penalty are the overlap. The force on
-/// the rim acts on the smaller radius.
-fn pressure() -> f64 {
+/// Pressure on the hub \[Pa\]: the displacements of hub and rim and that of the penalty are the overlap.
+fn pressure(meshes: &Meshes) -> f64 {
+    let [_, hub, rim, _] = RADII;
+    let [inward, outward] = (meshes.yielding)();
+    (hub - rim) / (inward + outward + PENALTY.recip())
+}
+
+/// Rings in plane strain. The force of the hub acts on the smaller radius of the rim.
+fn rings() -> [f64; 2] {
     let [bore, hub, rim, outside] = RADII;
     let (modulus, poisson) = (YOUNG / (1.0 - POISSON * POISSON), POISSON / (1.0 - POISSON));
     let ratio = |inner: f64, outer: f64| (outer * outer + inner * inner) / (outer * outer - inner * inner);
-    let inward = hub / modulus * (ratio(bore, hub) - poisson);
-    let outward = hub / modulus * (ratio(rim, outside) + poisson);
-    (hub - rim) / (inward + outward + PENALTY.recip())
+    [hub / modulus * (ratio(bore, hub) - poisson), hub / modulus * (ratio(rim, outside) + poisson)]
+}
+
+/// Hollow balls. The force of the inner one acts on the smaller area of the outer one.
+fn balls() -> [f64; 2] {
+    let [bore, hub, rim, outside] = RADII;
+    let (linear, inverse) = (1.0 - 2.0 * POISSON, 0.5 * (1.0 + POISSON));
+    let strain = |loaded: f64, free: f64| {
+        let (loaded, free) = (loaded.powi(3), free.powi(3));
+        (linear * loaded + inverse * free) / (YOUNG * (free - loaded).abs())
+    };
+    [hub * strain(hub, bore), hub * hub / rim * strain(rim, outside)]
 }
 
 /// Errors over the exact pressure.

@@ -20,6 +20,7 @@ pub(super) fn draw(name: &str) -> Option<Sketch> {
         "flat_punch" => punch(),
         "frictional_bar" => bar(),
         "frictional_crack" => crack(),
+        "impact_balls" => balls(),
         "impact_bars" => impact(),
         "hertz_line" => hertz("R = 100 mm", "δ = 18.6 µm", "40 × 20 mm, steel", ""),
         "partial_slip" => hertz("R = 100 mm", "δ = 18.6 µm", "40 × 20 mm, steel, μ = 0.3", "4 µm, and back"),
@@ -211,6 +212,22 @@ fn impact() -> Sketch {
         .note((62.0, 26.0), "at rest")
         .dimension((8.0, 7.0), (48.0, 7.0), "100 mm")
         .note((56.0, 8.0), "c = 5000 m/s, ρ = 8000 kg/m³")
+}
+
+fn balls() -> Sketch {
+    let ball = |y: f64| Sketch::arc((36.0, y), 16.0, 0.0, 360.0);
+    Sketch::new(76.0)
+        .body(&ball(22.0), "")
+        .body(&ball(54.5), "")
+        .guide(&[(36.0, 3.0), (36.0, 73.0)])
+        .arrow((58.0, 62.0), (58.0, 48.0), "")
+        .note((61.0, 55.0), "V = 1 to 16 m/s")
+        .note((61.0, 38.0), "no friction")
+        .note((61.0, 22.0), "at rest")
+        .dimension((20.0, 22.0), (36.0, 22.0), "")
+        .text((28.0, 25.0), "10 mm")
+        .note((61.0, 12.0), "E = 200 GPa, ν = 0.3")
+        .note((61.0, 6.0), "ρ = 7800 kg/m³")
 }
 
 fn crack() -> Sketch {

@@ -234,6 +234,18 @@ fn pushed_blocks(strain: &str, push: &str, solver: &str) -> String {
 }
 
 fn blocks_in_space(divisions: [usize; 3], path: &str, strain: &str, push: &str, solver: &str) -> String {
+    joined_blocks(divisions, path, strain, ["node-to-point", "small", "100 E/h"], push, solver)
+}
+
+/// The same with measure, sliding and penalty of the joint.
+fn joined_blocks(
+    divisions: [usize; 3],
+    path: &str,
+    strain: &str,
+    [measure, sliding, penalty]: [&str; 3],
+    push: &str,
+    solver: &str,
+) -> String {
     let block = |z: usize| {
         format!(
             "mesh.block = {{ min = [0, 0, {z}], max = [2, 2, {}], divisions = {divisions:?}, element = \"hex8\" }}\n\
@@ -256,9 +268,9 @@ poisson = 0.3
 [interfaces.joint]
 slave = "B.back"
 master = "A.front"
-measure = "node-to-point"
-sliding = "small"
-enforcement = {{ kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }}
+measure = "{measure}"
+sliding = "{sliding}"
+enforcement = {{ kind = "penalty", normal = "{penalty}", tangential = "{penalty}" }}
 law = {{ kind = "coulomb", mu = 0.6 }}
 [[stages]]
 name = "push"
@@ -300,27 +312,22 @@ fn large_unsymmetric_systems_are_iterated_to_the_solution_of_lu() {
 #[test]
 fn contact_in_space_is_iterated_without_factors_whatever_the_penalty() {
     let push = "{ set = \"B.front\", z = { to = \"-2 mm\" }, x = { to = \"8 mm\" }, y = { to = \"2 mm\" } }";
-    for (strain, sliding, measure, penalty) in [
-        ("small", "small", "node-to-point", "100"),
-        ("small", "small", "mortar", "1e6"),
-        ("small", "finite", "mortar", "100"),
-        ("finite", "finite", "node-to-point", "1"),
+    for (strain, joint) in [
+        ("small", ["node-to-point", "small", "100 E/h"]),
+        ("small", ["mortar", "small", "1e6 E/h"]),
+        ("small", ["mortar", "finite", "100 E/h"]),
+        ("finite", ["node-to-point", "finite", "1 E/h"]),
     ] {
-        let text = |solver: &str| {
-            pushed_blocks(strain, push, solver)
-                .replace("sliding = \"small\"", &format!("sliding = \"{sliding}\""))
-                .replace("measure = \"node-to-point\"", &format!("measure = \"{measure}\""))
-                .replace("100 E/h", &format!("{penalty} E/h"))
-        };
+        let text = |solver: &str| joined_blocks([10, 10, 5], "full", strain, joint, push, solver);
         let (direct, exact) = simulate(&text("method = \"direct\""));
         let (iterated, found) = simulate(&text("method = \"iterative\""));
         let words = &iterated.plan.solver;
         assert!(words.starts_with("iterative: the scene asks for it; GMRES to 1e-5"), "{words}");
         let [direct, iterated] = [direct, iterated].map(|report| report.counts.operations);
-        assert!(iterated.iterations <= direct.iterations + 4, "{measure}: {iterated:?} {direct:?}");
+        assert!(iterated.iterations <= direct.iterations + 4, "{joint:?}: {iterated:?} {direct:?}");
         // Twice what mortar contact in finite sliding takes; the others take 12 to 14.
         let most = 70 * iterated.solves;
-        assert!((1..most).contains(&iterated.linear_iterations), "{measure}, {penalty}: {iterated:?}");
+        assert!((1..most).contains(&iterated.linear_iterations), "{joint:?}: {iterated:?}");
         agree(&all(&exact), &all(&found), 1e-7);
     }
 }
@@ -328,12 +335,10 @@ fn contact_in_space_is_iterated_without_factors_whatever_the_penalty() {
 #[test]
 fn contact_too_big_for_the_memory_is_iterated_and_the_plan_says_why() {
     let push = "{ set = \"B.front\", z = { to = \"-2 mm\" }, x = { to = \"8 mm\" } }";
-    let text = |path: &str, solver: &str| {
-        blocks_in_space([12, 12, 6], "auto", "small", push, solver).replace("\"auto\"", path)
-    };
-    let (small, exact) = simulate(&text("\"auto\"", ""));
+    let text = |solver: &str| blocks_in_space([12, 12, 6], "auto", "small", push, solver);
+    let (small, exact) = simulate(&text(""));
     assert!(!small.plan.solver.starts_with("iterative"), "{}", small.plan.solver);
-    let (large, found) = simulate(&text("\"auto\"", "memory = \"30 MB\""));
+    let (large, found) = simulate(&text("memory = \"30 MB\""));
     assert!(large.plan.solver.starts_with("iterative: a factorisation would take"), "{}", large.plan.solver);
     agree(&all(&exact), &all(&found), 1e-7);
 }

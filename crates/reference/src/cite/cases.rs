@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 123] = [
+const CASES: [(&str, &[&str]); 124] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -73,6 +73,7 @@ const CASES: [(&str, &[&str]); 123] = [
     ("hertz_ball", &["johnson1985", "mindlin1949", "munisamy1994"]),
     ("hertz_line", &["hertz1882", "johnson1985"]),
     ("hertz_sphere", &["hertz1882", "johnson1985"]),
+    ("impact_balls", &["hertz1882", "johnson1985", "love1927"]),
     ("impact_bars", &["johnson1985", "chung1993"]),
     ("implicit_dynamics", &["chung1993", "wood1952", "zienkiewicz1991"]),
     ("interface_instability", &["riceruina1983", "ranjith1999"]),
