@@ -34,25 +34,32 @@ const SCENE: &str = include_str!("scene.toml");
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut rows, mut shown) = (Vec::new(), Vec::new());
     let (mut pressures, mut shears) = (Vec::new(), Vec::new());
-    let (condensed, points) = (Path::Auto, Measure::NodeToPoint);
-    for (name, measure, path, capability, sizes) in [
+    let (condensed, points) = (Solution::Condensed, Measure::NodeToPoint);
+    for (name, measure, solution, capability, sizes) in [
         ("mortar", Measure::Mortar, condensed, Capability::Mortar, [COARSE, SIZE, CLAIMED].as_slice()),
         ("node-to-point", points, condensed, Capability::PenaltyContact3d, [CLAIMED].as_slice()),
         (
             "node-to-point, all unknowns",
             points,
-            Path::Full,
+            Solution::Factors,
             Capability::PenaltyContact3d,
+            [CLAIMED].as_slice(),
+        ),
+        (
+            "mortar, all unknowns, no factors",
+            Measure::Mortar,
+            Solution::Levels,
+            Capability::Mortar,
             [CLAIMED].as_slice(),
         ),
     ] {
         for &size in sizes {
-            let ball = Ball::new(size, measure, path)?;
+            let ball = Ball::new(size, measure, solution)?;
             rows.push(ball.row(name, size));
-            if path == Path::Full && ball.done.report.counts.operations.linear_iterations == 0 {
+            if solution.is_full() && ball.done.report.counts.operations.linear_iterations == 0 {
                 return Err("the unsymmetric system of all unknowns was not iterated".into());
             }
-            if measure == Measure::Mortar {
+            if measure == Measure::Mortar && !solution.is_full() {
                 pressures.push((size, ball.pressure_error()));
                 shears.push((size, ball.shear_error()));
             }
@@ -100,6 +107,23 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     penalties::run(ledger)
 }
 
+/// Solution of the systems of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Solution {
+    /// Of the contact alone.
+    Condensed,
+    /// Of all unknowns, by iterations with a Cholesky factor.
+    Factors,
+    /// Of all unknowns, by iterations with smoothed aggregation.
+    Levels,
+}
+
+impl Solution {
+    fn is_full(self) -> bool {
+        self != Self::Condensed
+    }
+}
+
 struct Ball {
     done: HertzRun,
     pressed: Tractions,
@@ -111,9 +135,10 @@ struct Ball {
 }
 
 impl Ball {
-    fn new(size: f64, measure: Measure, path: Path) -> Result<Self, CaseError> {
-        let mut scene = hertz::refined(hertz::read(SCENE)?, SIZE / size);
-        scene.time.path = path;
+    fn new(size: f64, measure: Measure, solution: Solution) -> Result<Self, CaseError> {
+        let solver = if solution == Solution::Levels { "\n[solver]\nmethod = \"iterative\"\n" } else { "" };
+        let mut scene = hertz::refined(hertz::read(&format!("{SCENE}{solver}"))?, SIZE / size);
+        scene.time.path = if solution.is_full() { Path::Full } else { Path::Auto };
         let done = hertz::simulate(&hertz::measured(scene, measure, Sliding::Small))?;
         let radius = |x: [f64; 3]| x[0].hypot(x[2]);
         let [pressed, sheared] = [done.tractions_by("press", radius)?, done.tractions_by("shear", radius)?];

@@ -447,6 +447,7 @@ fn runs_in_space_resume_bit_for_bit() {
         ("space, forward", vec![&SPACE, &FORWARD]),
         ("space, off the end", vec![&SPACE, &[OFF]]),
         ("space, iterated", vec![&SPACE, &ITERATED]),
+        ("space, levels", vec![&SPACE, &ITERATED, &[Add("solver", r#"{ method = "iterative" }"#)]]),
         ("space, pairs", vec![&SPACE, &PAIRS, &[SLIP, ROUGH]]),
         ("space, pairs, forward", vec![&SPACE, &FORWARD, &PAIRS, &[ROUGH]]),
         ("space, forward, mortar, ageing, small", vec![&SPACE, &FORWARD, &SMALL, &[MORTAR, AGEING]]),

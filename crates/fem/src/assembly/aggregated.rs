@@ -1,13 +1,12 @@
-//! A sparse system that is not symmetric or not positive definite, solved by GMRES where factors do not fit into memory. Smoothed
-//! aggregation of a symmetric matrix near it is the preconditioner, made at the first solve of a step and kept for as long as
-//! it costs less than another.
+//! An unsymmetric sparse system solved by GMRES where factors do not fit into memory. Smoothed aggregation of a symmetric matrix
+//! near it is the preconditioner, made at the first solve of a step and kept for as long as it costs less than another.
 //!
 //! Interfaces are part of the levels. Closed points couple more strongly than cells, so that a node and its partners across the
 //! interface form an aggregate, in which penalties of any size do no work.
 
 use super::iterative::{Iterative, NearNull};
-use super::preconditioned::Solution;
 use super::renewal::Renewal;
+use super::solution::{Solution, USEFUL};
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::iterative::cg::Preconditioner;
@@ -19,10 +18,8 @@ use crate::iterative::smoothed_aggregation::{Cycle, Hierarchy, Settings};
 use crate::term::{Pattern, PatternId};
 use std::fmt::Debug;
 
-/// Vectors of a basis, which take the memory of the matrix of hexahedra.
+/// Largest number of vectors of a basis. So many take the memory of a matrix of hexahedra.
 const RESTART: usize = 60;
-/// Residual over the load at which a solution is a direction for Newton's method, which judges by the residual it leads to.
-const USEFUL: f64 = 1e-3;
 /// Iterations in the time in which levels are made: 20 to 25 with 250 000 unknowns.
 const WORTH: usize = 20;
 

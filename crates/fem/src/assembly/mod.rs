@@ -12,6 +12,7 @@ mod memory;
 mod preconditioned;
 mod renewal;
 mod schur_complement;
+mod solution;
 mod symmetric;
 mod symmetry;
 
@@ -28,8 +29,9 @@ use flexibility::{FlexibilityStore, Part};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use memory::Memory;
-use preconditioned::{PreconditionedStore, Solution};
+use preconditioned::PreconditionedStore;
 use rayon::prelude::*;
+use solution::Solution;
 use std::convert::Infallible;
 pub use symmetry::Symmetry;
 
@@ -290,22 +292,17 @@ impl System {
                     if let Some(constant) = constant.filter(|_| store.is_due()) {
                         store.add_near(first, constant);
                     } else if store.is_due() {
-                        near_of(term, &mut self.buffer);
-                        symmetrise(term.pattern(), &mut self.buffer);
-                        store.add_near(first, &self.buffer);
+                        store.add_near(first, symmetric(&mut **term, &mut self.buffer, &near_of));
                     }
                 }
                 Store::Aggregated(store) => {
-                    let own =
-                        Tangent { pattern: term.pattern(), values: tangent, constant: constant.is_some() };
-                    let of_matrix = own.constant;
+                    let constant = constant.is_some();
+                    let own = Tangent { pattern: term.pattern(), values: tangent, constant };
                     if let Err(error) = store.set(number, own, &self.equations) {
                         return Ok(Err(error));
                     }
-                    if store.is_due() && !of_matrix {
-                        near_of(term, &mut self.buffer);
-                        symmetrise(term.pattern(), &mut self.buffer);
-                        store.set_near(number, &self.buffer);
+                    if store.is_due() && !constant {
+                        store.set_near(number, symmetric(&mut **term, &mut self.buffer, &near_of));
                     }
                 }
                 Store::Iterative(_) => {
@@ -499,6 +496,17 @@ fn largest(values: &[f64]) -> f64 {
         .par_chunks(CHUNK)
         .map(|part| part.iter().fold(0.0_f64, |m, v| m.max(v.abs())))
         .reduce(|| 0.0, f64::max)
+}
+
+/// The symmetric part of the values of a term, in the buffer that holds its tangent, after `near_of` has replaced them.
+fn symmetric<'a, T: Linearized + ?Sized>(
+    term: &mut T,
+    buffer: &'a mut [f64],
+    near_of: impl Fn(&mut T, &mut [f64]),
+) -> &'a [f64] {
+    near_of(term, buffer);
+    symmetrise(term.pattern(), buffer);
+    buffer
 }
 
 /// Replaces each block of a pattern by its symmetric part.

@@ -7,12 +7,12 @@
 use super::Analysis;
 use super::direct::SparseStore;
 use super::renewal::Renewal;
+use super::solution::{Solution, USEFUL};
 use super::symmetry::Symmetry;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::iterative::gmres::{self, Bounds, PreconditionedSystem};
 use crate::multifrontal::DirectError;
-use crate::outcome::Outcome;
 use crate::sparse::ScatterMap;
 use crate::term::Pattern;
 use faer::sparse::SparseColMatRef;
@@ -20,8 +20,6 @@ use faer::sparse::SparseColMatRef;
 /// Bounds of a solution. Newton's method, whose residual falls by the tolerance at best, takes as many iterations with 1e-5 as with
 /// exact directions while pairs and plastic points change, and one more at its end; smaller ones cost more than they save.
 const BOUNDS: Bounds = Bounds { tolerance: 1e-5, restart: 60, most_iterations: 180, paced: false };
-/// Residual over the load at which a solution is a direction for Newton's method, which judges by the residual it leads to.
-const USEFUL: f64 = 1e-3;
 /// Rate of operations in a factorisation over that in a solve, which waits for memory.
 const FACTORISATION_RATE: f64 = 8.0;
 /// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
@@ -173,16 +171,6 @@ impl PreconditionedStore {
         self.whole.factor(Symmetry::General)?;
         Ok(self.whole.solve(rhs).then_some(Solution::Iterated { outcome, made: 1 }))
     }
-}
-
-/// Way in which a system was solved.
-pub(super) enum Solution {
-    /// By a factor.
-    Direct,
-    /// By iterations, or after them by `made` factorisations.
-    Iterated { outcome: Outcome, made: usize },
-    /// Not at all: the preconditioner, which is that of an earlier matrix, is too far from this one. The next assembly makes another.
-    Distant { outcome: Outcome },
 }
 
 /// The matrix with its preconditioner.

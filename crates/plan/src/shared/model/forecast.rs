@@ -5,7 +5,9 @@
 //! large blocks the plan relies on the estimates, and neither assembles nor analyses.
 
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Body, Fault, Interface, MeshSource, Method, Scene, Spanned, Stepper};
+use crate::reading::scene::model::{
+    Body, EnforcementKind, Fault, Interface, MeshSource, Method, Scene, Spanned, Stepper,
+};
 use crate::shared::amounts::{self, size};
 use crate::shared::idealisation;
 use crate::shared::model::meshes;
@@ -179,7 +181,12 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
 
 /// True if the plan may choose an iterative linear solver by itself.
 pub fn may_iterate(scene: &Scene) -> bool {
-    scene.solver.method() == Method::Auto && scene.kinematics.get_ref().dimension() == 3
+    let unknowns = |i: &Interface| *i.enforcement.kind.get_ref() == EnforcementKind::AugmentedLagrangian;
+    let forward = *scene.time.stepper.get_ref() == Stepper::StaticExplicit;
+    let corrects = scene.inertia().is_none() && !forward && !scene.interfaces.values().any(unknowns);
+    scene.solver.method() == Method::Auto
+        && scene.kinematics.get_ref().dimension() == 3
+        && (scene.interfaces.is_empty() || corrects)
 }
 
 /// Generated blocks of a scene.
