@@ -36,6 +36,8 @@ pub enum Method {
     Preconditioned,
     /// GMRES preconditioned with smoothed aggregation of a symmetric matrix near the tangent.
     Aggregated {
+        /// True if its Cholesky factor fits into memory, and takes over for the rest of a step in which iterations fail.
+        factors: bool,
         /// Residual over the load at which a solution is accepted.
         tolerance: f64,
         /// Iterations after which the solution is abandoned.

@@ -333,6 +333,20 @@ fn contact_in_space_is_iterated_without_factors_whatever_the_penalty() {
 }
 
 #[test]
+fn contact_whose_factors_take_long_is_iterated_and_the_plan_says_why() {
+    let push = "{ set = \"B.front\", z = { to = \"-2 mm\" }, x = { to = \"8 mm\" } }";
+    let text = |solver: &str| blocks_in_space([24, 24, 16], "full", "small", push, solver);
+    for (solver, expected) in [
+        ("", "iterative: a factorisation takes longer; GMRES to 1e-5 of the load"),
+        ("method = \"direct\"", "direct: unsymmetric factorisation (LU)"),
+    ] {
+        let plan = planned(&text(solver));
+        let words = &plan.summary().solver;
+        assert!(words.starts_with(expected), "{words}");
+    }
+}
+
+#[test]
 fn contact_too_big_for_the_memory_is_iterated_and_the_plan_says_why() {
     let push = "{ set = \"B.front\", z = { to = \"-2 mm\" }, x = { to = \"8 mm\" } }";
     let text = |solver: &str| blocks_in_space([12, 12, 6], "auto", "small", push, solver);

@@ -28,6 +28,9 @@ pub(super) trait AggregatedSystem: Debug + Send {
     /// The next matrix is that of another step, whose preconditioner depends on nothing before it.
     fn begin_step(&mut self);
 
+    /// Forgets the levels.
+    fn forget(&mut self);
+
     /// True if the next assembly needs the values of the symmetric matrix as well.
     fn is_due(&self) -> bool;
 
@@ -108,6 +111,11 @@ impl<const D: usize, const K: usize> AggregatedStore<D, K> {
 impl<const D: usize, const K: usize> AggregatedSystem for AggregatedStore<D, K> {
     fn begin_step(&mut self) {
         self.renewal.due = true;
+    }
+
+    fn forget(&mut self) {
+        self.hierarchy = None;
+        self.begin_step();
     }
 
     fn is_due(&self) -> bool {

@@ -61,6 +61,10 @@ pub struct System {
     equations: Equations,
     symmetry: Symmetry,
     store: Store,
+    /// Store that takes the place of levels for the rest of a step in which they do not serve.
+    spare: Option<Store>,
+    /// True if it does.
+    replaced: bool,
     /// Identities of the patterns the present factor was made from; none without a factor.
     factored: Option<Vec<PatternId>>,
     /// Values of one term, reused.
@@ -120,11 +124,21 @@ impl System {
         Self::with_store(equations, Symmetry::General, store)
     }
 
+    /// Solves with a Cholesky factor, of this memory at most \[bytes\], for the rest of a step in which levels do not serve. An analysis made
+    /// beforehand is used where it fits.
+    #[must_use]
+    pub fn with_factors(mut self, memory: usize, analysis: Option<Analysis>) -> Self {
+        self.spare = Some(Store::Preconditioned(Box::new(PreconditionedStore::new(memory, analysis))));
+        self
+    }
+
     fn with_store(equations: Equations, symmetry: Symmetry, store: Store) -> Self {
         Self {
             equations,
             symmetry,
             store,
+            spare: None,
+            replaced: false,
             factored: None,
             buffer: Vec::new(),
             largest_entry: 0.0,
@@ -160,11 +174,28 @@ impl System {
 
     /// Begins a step, whose solution depends on none before it.
     pub fn begin_step(&mut self) {
+        if self.replaced {
+            self.exchange();
+        }
         match &mut self.store {
             Store::Preconditioned(store) => store.begin_step(),
             Store::Flexibility(store) => store.begin_step(),
             Store::Aggregated(store) => store.begin_step(),
             Store::Dense(_) | Store::Sparse(_) | Store::Iterative(_) => {}
+        }
+    }
+
+    /// Exchanges the store and the spare one.
+    fn exchange(&mut self) {
+        if let Some(spare) = &mut self.spare {
+            std::mem::swap(&mut self.store, spare);
+            self.replaced = !self.replaced;
+            self.factored = None;
+            match spare {
+                Store::Preconditioned(store) => store.forget(),
+                Store::Aggregated(store) => store.forget(),
+                _ => {}
+            }
         }
     }
 
@@ -422,6 +453,19 @@ impl System {
         terms: &mut [&mut dyn Linearized],
         rhs: &mut [f64],
     ) -> Result<usize, FemError> {
+        let load = rhs.to_vec();
+        match self.try_tangent(terms, rhs) {
+            Err(_) if self.spare.is_some() && !self.replaced => {
+                rhs.copy_from_slice(&load);
+                self.exchange();
+                self.try_tangent(terms, rhs)
+            }
+            solved => solved,
+        }
+    }
+
+    /// Solves with the present store.
+    fn try_tangent(&mut self, terms: &mut [&mut dyn Linearized], rhs: &mut [f64]) -> Result<usize, FemError> {
         let mut assemblies = usize::from(self.factor_tangent(terms)?);
         if !self.attempt(rhs, true)? {
             assemblies += usize::from(self.factor_tangent(terms)?);

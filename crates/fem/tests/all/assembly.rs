@@ -1,6 +1,7 @@
 //! The system of a step: parallel assembly, symmetric and general factorisation, reuse, and the content of errors.
 
-use asperity_fem::assembly::{Storage, Symmetry, System};
+use asperity_fem::FemError;
+use asperity_fem::assembly::{Iterative, NearNull, Storage, Symmetry, System};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::element::ElementKind;
@@ -379,6 +380,49 @@ fn tractions_between_bodies_that_are_held_or_float_are_those_of_lu() {
         let floats = held.len() == 1;
         assert_eq!(open.is_err_and(|error| error.is_singular()), floats);
     }
+}
+
+#[test]
+fn a_factor_takes_over_in_a_step_in_which_levels_fail_and_levels_are_tried_again_in_the_next() {
+    let (mesh, [right, left]) = two_blocks([10, 20]);
+    let (mut first, mut second) = (linear(&mesh, 0), linear(&mesh, 1));
+    let mut contact = Touching::new(&right, &left, [3e11, 1e11]);
+    contact.closed.fill(true);
+    let terms: &mut [&mut dyn Linearized] = &mut [&mut first, &mut second, &mut contact];
+    let mut lu = system_of(&mesh, &["left", "second.right"], Storage::Sparse);
+    let equations = lu.equations().clone();
+    let load: Vec<f64> = (0..equations.free.len()).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    let levels = |most_iterations| {
+        let near_null = NearNull::new(&mesh.nodes, 2).unwrap();
+        let iterative = Iterative { near_null, tolerance: 1e-10, most_iterations };
+        System::aggregated(equations.clone(), iterative)
+    };
+    let mut expected = load.clone();
+    lu.solve_tangent(terms, &mut expected).unwrap();
+
+    // Two iterations do not reach a thousandth of the load, which is the least that serves as a direction.
+    let mut alone = levels(2);
+    let outcome = alone.solve_tangent(terms, &mut load.clone());
+    assert!(matches!(outcome, Err(FemError::NotConverged(_))), "{outcome:?}");
+
+    let mut both = levels(2).with_factors(usize::MAX, None);
+    for factorisations in [[2, 2], [4, 4]] {
+        both.begin_step();
+        for made in factorisations {
+            let mut x = load.clone();
+            both.solve_tangent(terms, &mut x).unwrap();
+            // The factor's own iterations leave 1e-5 of the load, and displacements err by a few times as much.
+            assert!(error(&x, &expected) < 1e-4, "{:e}", error(&x, &expected));
+            // Levels and a factor at the first solution, the same factor at the second.
+            assert_eq!(both.factorisations, made);
+        }
+    }
+
+    let mut enough = levels(200).with_factors(usize::MAX, None);
+    let mut x = load;
+    enough.solve_tangent(terms, &mut x).unwrap();
+    // A residual of 1e-10 of the load, and a condition number of 1e4.
+    assert!(enough.factorisations == 1 && error(&x, &expected) < 1e-6, "{:e}", error(&x, &expected));
 }
 
 /// Product of the sum of the tangents with `x`.

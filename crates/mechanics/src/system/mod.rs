@@ -216,25 +216,27 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             false => equations.with_groups(self.groups.iter().map(Vec::as_slice)),
         };
         let solver = &self.problem.solver;
+        let analysis = || match &solver.prepared {
+            Analyses::System(analysis) => Some(analysis.clone()),
+            _ => None,
+        };
         Ok(match solver.method {
             Method::Iterative { tolerance, most_iterations } => {
                 let near_null = self.rigid_motions()?;
                 System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
             }
-            Method::Aggregated { tolerance, most_iterations } => {
+            Method::Aggregated { factors, tolerance, most_iterations } => {
                 let near_null = self.rigid_motions()?;
-                System::aggregated(equations, Iterative { near_null, tolerance, most_iterations })
+                let iterative = Iterative { near_null, tolerance, most_iterations };
+                let levels = System::aggregated(equations, iterative);
+                if factors { levels.with_factors(solver.memory, analysis()) } else { levels }
             }
             Method::Dense => System::new(equations, Storage::Dense),
             Method::Flexibility => System::new(equations, Storage::Flexibility),
             Method::Sparse | Method::Preconditioned => {
-                let analysis = match &solver.prepared {
-                    Analyses::System(analysis) => Some(analysis.clone()),
-                    _ => None,
-                };
                 let iterates = solver.method == Method::Preconditioned;
                 let storage = if iterates { Storage::Preconditioned } else { Storage::Sparse };
-                System::new(equations, storage).prepared(solver.memory, analysis)
+                System::new(equations, storage).prepared(solver.memory, analysis())
             }
         })
     }

@@ -25,6 +25,15 @@ const DIRECTION: f64 = 1e-5;
 const ANALYSED: usize = 50_000;
 /// Operations of a Cholesky factorisation of the bodies above which LU, several times as many, is avoided: a hundredth of a second.
 const LU_AVOIDED: f64 = 1e7;
+/// Operations of a Cholesky factorisation of a step above which levels are better.
+const FACTORS_AVOIDED: f64 = 2e10;
+/// Iterations with levels after which a factor is made: they cost as much as the factorisation of 150 000 unknowns.
+const MOST_BEFORE_FACTORS: usize = 180;
+/// Operations of a factorisation in the time that levels, some ten products with them and an assembly take for each unknown: 16 to 22 us of CPU
+/// a step with 250 000 to 1 900 000 unknowns of hexahedra.
+const OF_LEVELS: f64 = 7e4;
+/// The same with plastic cells of second order and large deformation over that: 38 to 52 us with 29 000 to 150 000 unknowns.
+const NONLINEAR: f64 = 2.3;
 /// Operations of a dense factorisation of the condensed interface above which tractions are solved for instead: a tenth of a second.
 const DENSE_AVOIDED: f64 = 1e8;
 /// Products with the compliance of pairs, its factor and the bodies in an iteration of Newton's method.
@@ -175,7 +184,11 @@ impl<const D: usize> Choice<'_, D> {
         };
         if unsymmetric.is_some() && self.avoids_lu(&prepared) {
             let bytes = bytes + self.matrix();
-            if bytes <= self.memory() {
+            let fits = bytes <= self.memory();
+            if fits && method == Asked::Auto && self.avoids_factors(&prepared) {
+                return Ok(self.levels_first(prepared));
+            }
+            if fits {
                 return Ok(self.preconditioned(prepared, bytes));
             }
         }
@@ -199,6 +212,44 @@ impl<const D: usize> Choice<'_, D> {
         };
         let asked = self.scene.solver.method() == Asked::Direct;
         large && self.definite() && !asked && !self.stepping.is_forward()
+    }
+
+    /// True if a Cholesky factor of each step takes so long that levels are better, and can take its place.
+    fn avoids_factors(&self, prepared: &Analyses) -> bool {
+        let large = match prepared {
+            Analyses::System(analysis) => analysis.symbolic().operations() > FACTORS_AVOIDED,
+            _ => true,
+        };
+        large && self.may_iterate() && self.levels() <= self.memory()
+    }
+
+    /// Levels, and a factor in steps where they do not serve.
+    fn levels_first(&self, prepared: Analyses) -> Solver {
+        let (factors, tolerance) = (true, DIRECTION);
+        let method = Method::Aggregated { factors, tolerance, most_iterations: MOST_BEFORE_FACTORS };
+        let why = format!(
+            "iterative: a factorisation takes longer; GMRES to {tolerance:e} of the load, with smoothed aggregation, and with a \
+             Cholesky factor for the rest of a step in which that fails"
+        );
+        Solver {
+            method,
+            memory: self.memory(),
+            prepared,
+            bytes: self.levels(),
+            operations: Some(self.iterated()),
+            why,
+        }
+    }
+
+    /// Operations of a factorisation in the time of an iteration of Newton's method with levels.
+    fn iterated(&self) -> f64 {
+        let of_cells = if self.model.is_linear() { 1.0 } else { NONLINEAR };
+        OF_LEVELS * of_cells * self.model.dofs() as f64
+    }
+
+    /// Memory of levels, of the matrix and its neighbour, and of the basis of GMRES \[bytes\].
+    fn levels(&self) -> usize {
+        AGGREGATED * self.matrix()
     }
 
     /// Memory of the matrix \[bytes\].
@@ -312,7 +363,7 @@ impl<const D: usize> Choice<'_, D> {
                 "use `method = \"direct\"`, or leave it out",
             ));
         }
-        let bytes = if symmetric { HIERARCHY } else { AGGREGATED } * self.matrix();
+        let bytes = if symmetric { HIERARCHY * self.matrix() } else { self.levels() };
         if bytes > self.memory() {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
             return Err(self.too_much(&what, bytes, false));
@@ -328,11 +379,16 @@ impl<const D: usize> Choice<'_, D> {
             )
         } else {
             let tolerance = tolerance.unwrap_or(DIRECTION);
-            (Method::Aggregated { tolerance, most_iterations }, format!("GMRES to {tolerance:e}"))
+            (
+                Method::Aggregated { factors: false, tolerance, most_iterations },
+                format!("GMRES to {tolerance:e}"),
+            )
         };
         let why = format!("iterative: {why}; {how} of the load, with smoothed aggregation");
         let (memory, prepared) = (self.memory(), Analyses::Nothing);
-        Ok(Solver { method, memory, prepared, bytes, operations: None, why })
+        let once = self.interfaces.is_empty() && self.model.is_linear();
+        let operations = (!once).then(|| self.iterated());
+        Ok(Solver { method, memory, prepared, bytes, operations, why })
     }
 
     /// Error for a system that is too large to be numbered.
