@@ -4,7 +4,8 @@ use super::assembly::Assembly;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Method as Asked, Path as PathChoice, Scene, Spanned};
 use crate::shared::amounts::{memory, size};
-use crate::shared::model::{counts, forecast};
+use crate::shared::model::counts;
+use crate::shared::model::forecast::{self, Factorisation};
 use asperity_contact::Sliding;
 use asperity_fem::assembly::{FACTORED_COMPONENTS, LowerTriangle, Symmetry};
 use asperity_fem::dof::{Constraints, Equations};
@@ -40,7 +41,7 @@ const DENSE_AVOIDED: f64 = 1e8;
 const PRODUCTS: usize = 8;
 /// Operations of a factorisation in the time in which a product reads a value.
 const WAIT: f64 = 4.5;
-/// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
+/// Memory and operations of LU over those of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
 const UNSYMMETRIC: usize = 2;
 
 /// Chooses the linear solver, on this path or, if the scene leaves it open and memory does not suffice for condensation, on the full
@@ -60,6 +61,12 @@ pub fn choose<const D: usize>(assembly: &Assembly<'_, D>, path: Path) -> Result<
             Err(refused) => Err(choice.or_full(refused)),
         },
     }
+}
+
+/// Cost of LU, where that of Cholesky with the same pattern is this one.
+fn lu(cost: Factorisation) -> Factorisation {
+    let Factorisation { bytes, operations } = cost;
+    Factorisation { bytes: UNSYMMETRIC * bytes, operations: UNSYMMETRIC as f64 * operations }
 }
 
 struct Choice<'a, const D: usize> {
@@ -82,21 +89,21 @@ impl<const D: usize> Choice<'_, D> {
         self.stages.iter().find(general)
     }
 
-    /// Bytes estimated from counts alone, if the model is large and the estimate decides whether they are allowed.
-    fn counted(&self, bytes: impl Fn(&Scene) -> Option<usize>) -> Option<usize> {
+    /// Cost estimated from counts alone, if the model is large and the estimate decides whether they are allowed.
+    fn counted<T>(&self, cost: impl Fn(&Scene) -> Option<T>, bytes: impl Fn(&T) -> usize) -> Option<T> {
         if self.model.dofs() <= ANALYSED {
             return None;
         }
         let memory = self.memory() as f64;
-        bytes(self.scene).filter(|&bytes| {
-            let sure = forecast::SURE * bytes as f64;
-            sure > memory || bytes as f64 <= forecast::SURE * memory
+        cost(self.scene).filter(|cost| {
+            let bytes = bytes(cost) as f64;
+            forecast::SURE * bytes > memory || bytes <= forecast::SURE * memory
         })
     }
 
     /// Memory for condensing the bodies onto `retained`, without the interface.
     fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Analyses, usize), Diagnostic> {
-        if let Some(bytes) = self.counted(forecast::condensation) {
+        if let Some(bytes) = self.counted(forecast::condensation, |bytes| *bytes) {
             return Ok((Analyses::Nothing, bytes));
         }
         let mut analyses = Vec::new();
@@ -172,29 +179,31 @@ impl<const D: usize> Choice<'_, D> {
             return self.iterative("the scene asks for it".into());
         }
         let unsymmetric = self.unsymmetric();
-        let (prepared, bytes) = match self.counted(forecast::factorisation) {
-            Some(bytes) => (Analyses::Nothing, bytes),
+        let (prepared, cost) = match self.counted(forecast::factorisation, |cost| cost.bytes) {
+            Some(cost) => (Analyses::Nothing, cost),
             None => {
                 let patterns: Vec<&Pattern> = self.model.blocks.iter().map(CellBlock::pattern).collect();
                 let analysis = LowerTriangle::new(&patterns, &self.equations()).analyse();
                 let analysis = analysis.map_err(|e| self.at_memory(e.to_string()))?;
-                let bytes = analysis.symbolic().bytes();
-                (Analyses::System(analysis), bytes)
+                let symbolic = analysis.symbolic();
+                let cost = Factorisation { bytes: symbolic.bytes(), operations: symbolic.operations() };
+                (Analyses::System(analysis), cost)
             }
         };
-        if unsymmetric.is_some() && self.avoids_lu(&prepared) {
-            let bytes = bytes + self.matrix();
-            let fits = bytes <= self.memory();
-            if fits && method == Asked::Auto && self.avoids_factors(&prepared) {
+        if unsymmetric.is_some() && self.avoids_lu(cost) {
+            let cost = Factorisation { bytes: cost.bytes + self.matrix(), ..cost };
+            let fits = cost.bytes <= self.memory();
+            if fits && method == Asked::Auto && self.avoids_factors(cost) {
                 return Ok(self.levels_first(prepared));
             }
             if fits {
-                return Ok(self.preconditioned(prepared, bytes));
+                return Ok(self.preconditioned(prepared, cost));
             }
         }
-        let bytes = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 } * bytes;
+        let cost = if unsymmetric.is_some() { lu(cost) } else { cost };
+        let bytes = cost.bytes;
         if bytes <= self.memory() {
-            return Ok(self.direct(prepared, bytes));
+            return Ok(self.direct(prepared, cost));
         }
         if method == Asked::Auto && self.may_iterate() {
             let why = format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
@@ -205,22 +214,14 @@ impl<const D: usize> Choice<'_, D> {
     }
 
     /// True if LU of an unsymmetric matrix takes so long that iterations with a Cholesky factor are better, and can take its place.
-    fn avoids_lu(&self, prepared: &Analyses) -> bool {
-        let large = match prepared {
-            Analyses::System(analysis) => analysis.symbolic().operations() > LU_AVOIDED,
-            _ => true,
-        };
+    fn avoids_lu(&self, cost: Factorisation) -> bool {
         let asked = self.scene.solver.method() == Asked::Direct;
-        large && self.definite() && !asked && !self.stepping.is_forward()
+        cost.operations > LU_AVOIDED && self.definite() && !asked && !self.stepping.is_forward()
     }
 
     /// True if a Cholesky factor of each step takes so long that levels are better, and can take its place.
-    fn avoids_factors(&self, prepared: &Analyses) -> bool {
-        let large = match prepared {
-            Analyses::System(analysis) => analysis.symbolic().operations() > FACTORS_AVOIDED,
-            _ => true,
-        };
-        large && self.may_iterate() && self.levels() <= self.memory()
+    fn avoids_factors(&self, cost: Factorisation) -> bool {
+        cost.operations > FACTORS_AVOIDED && self.may_iterate() && self.levels() <= self.memory()
     }
 
     /// Levels, and a factor in steps where they do not serve.
@@ -257,17 +258,13 @@ impl<const D: usize> Choice<'_, D> {
         forecast::matrix_bytes(&counts(&self.model.mesh), self.model.idealisation.components())
     }
 
-    fn preconditioned(&self, prepared: Analyses, bytes: usize) -> Solver {
-        let operations = match &prepared {
-            Analyses::System(analysis) => Some(analysis.symbolic().operations()),
-            _ => None,
-        };
+    fn preconditioned(&self, prepared: Analyses, cost: Factorisation) -> Solver {
         Solver {
             method: Method::Preconditioned,
             memory: self.memory(),
             prepared,
-            bytes,
-            operations,
+            bytes: cost.bytes,
+            operations: Some(cost.operations),
             why:
                 "GMRES with a Cholesky factor of each step; LU, where the matrix is unsymmetric, takes longer"
                     .into(),
@@ -296,7 +293,7 @@ impl<const D: usize> Choice<'_, D> {
         constraints.equations(self.model.dofs())
     }
 
-    fn direct(&self, prepared: Analyses, bytes: usize) -> Solver {
+    fn direct(&self, prepared: Analyses, cost: Factorisation) -> Solver {
         let general =
             |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
         let count = self.stages.iter().filter(general).count();
@@ -312,19 +309,12 @@ impl<const D: usize> Choice<'_, D> {
         let still = self.scene.inertia().is_none();
         let once = self.interfaces.is_empty() && self.model.is_linear() && still;
         let often = if once { ", once for each set of supports" } else { "" };
-        let operations = match &prepared {
-            Analyses::System(analysis) if !once => {
-                let cholesky = analysis.symbolic().operations();
-                Some(if count > 0 { UNSYMMETRIC as f64 * cholesky } else { cholesky })
-            }
-            _ => None,
-        };
         Solver {
             method: Method::Sparse,
             memory: self.memory(),
             prepared,
-            bytes,
-            operations,
+            bytes: cost.bytes,
+            operations: (!once).then_some(cost.operations),
             why: format!("direct: {factors}{often}"),
         }
     }

@@ -6,8 +6,8 @@ use asperity_fem::mesh::generate::Grid as Lines;
 use asperity_fem::term::{Blocks, Pattern};
 use asperity_plan::shared::model::forecast::*;
 
-/// Bytes of the factor's values and of the factorisation, as found by the analysis.
-fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> [f64; 2] {
+/// Bytes of the factor's values and of the factorisation, and operations, as found by the analysis.
+fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> [f64; 3] {
     let lines = cells.map(|n| (0..=n).map(|k| k as f64).collect());
     let mesh = Lines { lines, kind }.mesh().unwrap();
     let block = &mesh.blocks[0];
@@ -18,24 +18,29 @@ fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> [f64; 2] {
     let constraints = Constraints { fixed: Vec::new(), channels: Vec::new() };
     let equations = constraints.equations(mesh.nodes.len() * D);
     let analysis = LowerTriangle::new(&[&pattern], &equations).analyse().unwrap();
-    [WORD * analysis.symbolic().stored() as f64, analysis.symbolic().bytes() as f64]
+    let symbolic = analysis.symbolic();
+    [WORD * symbolic.stored() as f64, symbolic.bytes() as f64, symbolic.operations()]
 }
 
 #[test]
 fn factors_of_grids_are_estimated_within_half_as_much_again_and_never_surely_too_large() {
     let none = [false; 6];
     let cases = [
-        (analysed([100, 100], ElementKind::Quad4), factor_bytes([101, 101, 1], none, 2), FRONTS_IN_PLANE),
-        (analysed([400, 30], ElementKind::Quad4), factor_bytes([401, 31, 1], none, 2), FRONTS_IN_PLANE),
-        (analysed([14, 14, 14], ElementKind::Hex8), factor_bytes([15, 15, 15], none, 3), FRONTS_IN_SPACE),
-        (analysed([40, 12, 4], ElementKind::Hex8), factor_bytes([41, 13, 5], none, 3), FRONTS_IN_SPACE),
+        (analysed([100, 100], ElementKind::Quad4), factor_cost([101, 101, 1], none, 2), FRONTS_IN_PLANE),
+        (analysed([400, 30], ElementKind::Quad4), factor_cost([401, 31, 1], none, 2), FRONTS_IN_PLANE),
+        (analysed([14, 14, 14], ElementKind::Hex8), factor_cost([15, 15, 15], none, 3), FRONTS_IN_SPACE),
+        (analysed([40, 12, 4], ElementKind::Hex8), factor_cost([41, 13, 5], none, 3), FRONTS_IN_SPACE),
     ];
-    for ([factor, bytes], estimated, fronts) in cases {
+    for ([factor, bytes, operations], cost, fronts) in cases {
+        let estimated = WORD * cost.values;
         let ratio = estimated / factor;
         assert!((0.67..1.5).contains(&ratio), "{ratio}");
         assert!(SURE * estimated <= factor, "{ratio}");
         let ratio = fronts * estimated / bytes;
         assert!((0.67..1.5).contains(&ratio), "{ratio}");
+        // Operations are cubes where values are squares: the same error of a front's width counts by half as much again.
+        let ratio = cost.operations / operations;
+        assert!((0.5..2.0).contains(&ratio), "{ratio}");
     }
 }
 

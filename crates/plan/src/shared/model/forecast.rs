@@ -15,7 +15,7 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::generate::SIDES;
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Add, Range};
 
 /// Fraction of an estimate that is certainly needed: estimates are within a factor of 1.5 of the analysis on cubes, slabs and squares.
 pub const SURE: f64 = 0.5;
@@ -102,6 +102,43 @@ pub fn matrix_bytes(counts: &[Counts], components: usize) -> usize {
 #[must_use]
 pub fn most_so_far() -> Option<usize> {
     asperity_output::memory::most()
+}
+
+/// A Cholesky factor: its size and its work.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FactorCost {
+    /// Values.
+    pub values: f64,
+    /// Multiplications and additions of the factorisation.
+    pub operations: f64,
+}
+
+impl FactorCost {
+    /// Cost of a front with so many pivots and rows below them.
+    fn from_front(pivots: f64, below: f64) -> Self {
+        let rows = pivots + below;
+        let values = pivots * rows - 0.5 * pivots * pivots;
+        // Sum of (rows - i)^2 for i < pivots.
+        let operations = pivots * rows * rows - rows * pivots * pivots + pivots.powi(3) / 3.0;
+        Self { values, operations }
+    }
+}
+
+impl Add for FactorCost {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { values: self.values + other.values, operations: self.operations + other.operations }
+    }
+}
+
+/// A symmetric factorisation of all bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Factorisation {
+    /// Memory \[bytes\].
+    pub bytes: usize,
+    /// Multiplications and additions.
+    pub operations: f64,
 }
 
 /// A generated block.
@@ -196,8 +233,8 @@ fn grids(scene: &Scene) -> impl Iterator<Item = Grid> {
 
 impl Grid {
     /// Bytes of the Cholesky factor of the block; `kept` marks the sides that are eliminated last.
-    pub fn factor_bytes(&self, kept: [bool; 6], components: usize) -> f64 {
-        factor_bytes(self.nodes, kept, components)
+    fn factor_bytes(&self, kept: [bool; 6], components: usize) -> f64 {
+        WORD * factor_cost(self.nodes, kept, components).values
     }
 
     /// Bytes of a factorisation of the block.
@@ -207,13 +244,15 @@ impl Grid {
     }
 }
 
-/// Bytes of a symmetric factorisation of all bodies; `None` if some are not blocks.
+/// Memory and work of a symmetric factorisation of all bodies; `None` if some are not blocks.
 #[must_use]
-pub fn factorisation(scene: &Scene) -> Option<usize> {
+pub fn factorisation(scene: &Scene) -> Option<Factorisation> {
     let components = idealisation::from_kinematics(*scene.kinematics.get_ref()).components();
     let grids: Vec<Grid> = grids(scene).collect();
-    let bytes = grids.iter().map(|g| g.bytes([false; 6], components)).sum::<f64>();
-    (grids.len() == scene.bodies.len()).then_some(bytes as usize)
+    let sum = |of: &dyn Fn(&Grid) -> f64| grids.iter().map(of).sum::<f64>();
+    let bytes = sum(&|g| g.bytes([false; 6], components)) as usize;
+    let operations = sum(&|g| factor_cost(g.nodes, [false; 6], components).operations);
+    (grids.len() == scene.bodies.len()).then_some(Factorisation { bytes, operations })
 }
 
 /// Bytes of the factorisations that condense bodies onto their interfaces; `None` if some bodies are not blocks, or if some interfaces are not sides
@@ -359,31 +398,27 @@ fn in_words(counts: &[Counts], components: usize) -> String {
     format!("{cells} cells with {} degrees of freedom", nodes * components as f64)
 }
 
-/// Bytes of the Cholesky factor, by nested dissection, of a grid with this many nodes along its axes. `kept` marks sides whose nodes are eliminated
+/// Cost of the Cholesky factor, by nested dissection, of a grid with this many nodes along its axes. `kept` marks sides whose nodes are eliminated
 /// later.
-pub fn factor_bytes(nodes: [usize; 3], kept: [bool; 6], components: usize) -> f64 {
-    let mut known = BTreeMap::new();
-    WORD * values(nodes, kept, components as f64, &mut known)
+#[must_use]
+pub fn factor_cost(nodes: [usize; 3], kept: [bool; 6], components: usize) -> FactorCost {
+    cost(nodes, kept, components as f64, &mut BTreeMap::new())
 }
 
-/// Number of values in the factor of a box of nodes; `open` marks sides that lie at separators, which are eliminated
-/// later.
-fn values(
+/// Cost of the factor of a box of nodes; `open` marks sides that lie at separators, which are eliminated later.
+fn cost(
     nodes: [usize; 3],
     open: [bool; 6],
     components: f64,
-    known: &mut BTreeMap<([usize; 3], [bool; 6]), f64>,
-) -> f64 {
-    if let Some(&values) = known.get(&(nodes, open)) {
-        return values;
+    known: &mut BTreeMap<([usize; 3], [bool; 6]), FactorCost>,
+) -> FactorCost {
+    if let Some(&cost) = known.get(&(nodes, open)) {
+        return cost;
     }
     let n = nodes.map(|n| n as f64);
     let all: f64 = n.iter().product();
     let border: f64 = open.iter().enumerate().filter(|(_, open)| **open).map(|(f, _)| all / n[f / 2]).sum();
-    let front = |pivots: f64| {
-        let width = components * pivots;
-        width * (width + components * border) - 0.5 * width * width
-    };
+    let front = |pivots: f64| FactorCost::from_front(components * pivots, components * border);
     let axis = (0..3).max_by_key(|&a| nodes[a]).unwrap_or(0);
     let result = if components * all <= LEAF || nodes[axis] < 3 {
         front(all)
@@ -393,7 +428,7 @@ fn values(
             let (mut nodes, mut open) = (nodes, open);
             nodes[axis] = count;
             open[2 * axis + side] = true;
-            values(nodes, open, components, known)
+            cost(nodes, open, components, known)
         };
         front(all / n[axis]) + part(1, below) + part(0, nodes[axis] - 1 - below)
     };
