@@ -338,6 +338,7 @@ fn contact_whose_factors_take_long_is_iterated_and_the_plan_says_why() {
     let text = |solver: &str| blocks_in_space([24, 24, 16], "full", "small", push, solver);
     for (solver, expected) in [
         ("", "iterative: a factorisation takes longer; GMRES to 1e-5 of the load"),
+        ("tolerance = 1e-7", "iterative: a factorisation takes longer; GMRES to 1e-7 of the load"),
         ("method = \"direct\"", "direct: unsymmetric factorisation (LU)"),
     ] {
         let plan = planned(&text(solver));

@@ -26,7 +26,8 @@ const DIRECTION: f64 = 1e-5;
 const ANALYSED: usize = 50_000;
 /// Operations of a Cholesky factorisation of the bodies above which LU, several times as many, is avoided: a hundredth of a second.
 const LU_AVOIDED: f64 = 1e7;
-/// Operations of a Cholesky factorisation of a step above which levels are better.
+/// Operations of a Cholesky factorisation of a step above which levels are better: with 6e9 they take nine tenths of its time, and a third of its
+/// memory.
 const FACTORS_AVOIDED: f64 = 2e10;
 /// Iterations with levels after which a factor is made: they cost as much as the factorisation of 150 000 unknowns.
 const MOST_BEFORE_FACTORS: usize = 180;
@@ -226,8 +227,10 @@ impl<const D: usize> Choice<'_, D> {
 
     /// Levels, and a factor in steps where they do not serve.
     fn levels_first(&self, prepared: Analyses) -> Solver {
-        let (factors, tolerance) = (true, DIRECTION);
-        let method = Method::Aggregated { factors, tolerance, most_iterations: MOST_BEFORE_FACTORS };
+        let (tolerance, most) = self.iteration_bounds();
+        let tolerance = tolerance.unwrap_or(DIRECTION);
+        let most_iterations = most.unwrap_or(MOST_BEFORE_FACTORS);
+        let method = Method::Aggregated { factors: true, tolerance, most_iterations };
         let why = format!(
             "iterative: a factorisation takes longer; GMRES to {tolerance:e} of the load, with smoothed aggregation, and with a \
              Cholesky factor for the rest of a step in which that fails"
@@ -240,6 +243,13 @@ impl<const D: usize> Choice<'_, D> {
             operations: Some(self.iterated()),
             why,
         }
+    }
+
+    /// Tolerance and largest number of iterations that the scene asks for.
+    fn iteration_bounds(&self) -> (Option<f64>, Option<usize>) {
+        let solver = &self.scene.solver;
+        let tolerance = solver.tolerance.as_ref().map(|t| *t.get_ref());
+        (tolerance, solver.most_iterations.as_ref().map(|m| *m.get_ref()))
     }
 
     /// Operations of a factorisation in the time of an iteration of Newton's method with levels.
@@ -358,9 +368,8 @@ impl<const D: usize> Choice<'_, D> {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
             return Err(self.too_much(&what, bytes, false));
         }
-        let tolerance = solver.tolerance.as_ref().map(|t| *t.get_ref());
-        let most_iterations =
-            solver.most_iterations.as_ref().map_or(defaults::MOST_ITERATIONS, |m| *m.get_ref());
+        let (tolerance, most) = self.iteration_bounds();
+        let most_iterations = most.unwrap_or(defaults::MOST_ITERATIONS);
         let (method, how) = if symmetric {
             let tolerance = tolerance.unwrap_or(defaults::SOLVER_TOLERANCE);
             (
