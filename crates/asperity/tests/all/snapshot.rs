@@ -19,7 +19,7 @@ fn the_plan_of_the_sandwich_reads_as_before() {
       solver    direct: bodies by Cholesky factors, the interface by dense LU where friction acts; about 3.9 MiB of the 8.0 GiB allowed
       stepper   implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip
       start     interface `fault`: gaps from 0 m to 0 m at the 41 of 41 slave nodes that face the master, 0 without partner; 5.0000e-2 of 5.0000e-2 m face it
-      size      4116 degrees of freedom, 196 in each step's system, 0 bytes of friction state, about 45 MB
+      size      4116 degrees of freedom, 196 in each step's system, 0 bytes of friction state, about 62 MB
     ");
 }
 

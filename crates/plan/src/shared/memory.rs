@@ -6,6 +6,9 @@ use asperity_mechanics::{CellBlock, Model};
 
 /// Bytes of the program with its libraries, tables and plots. The smallest scenes take 12 MB without plots and 38 MB with them.
 const PROGRAM: usize = 38_000_000;
+/// Bytes of figures of bodies beyond those of the smallest scenes: with figures `sandwich.toml`, `hertz.toml` and `sandwich-3d.toml` take 24 to 32 MB
+/// more than without, and at times 50.
+const FIGURES: usize = 17_000_000;
 /// Bytes per thread of the buffers in which dense kernels pack their operands.
 const PACKED: usize = 10_000_000;
 
@@ -60,6 +63,7 @@ impl ModelMemory {
     pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
         let copies = if condensed { 2 } else { 1 };
         PROGRAM
+            + FIGURES
             + self.mesh
             + copies * self.stiffness
             + self.geometry
