@@ -1,4 +1,4 @@
-//! An unsymmetric sparse system solved by GMRES where factors do not fit into memory. Smoothed aggregation of a symmetric matrix
+//! An unsymmetric sparse system solved by GMRES where factors do not fit into memory, or take long. Smoothed aggregation of a symmetric matrix
 //! near it is the preconditioner, made at the first solve of a step and kept for as long as it costs less than another.
 //!
 //! Interfaces are part of the levels. Closed points couple more strongly than cells, so that a node and its partners across the

@@ -296,10 +296,9 @@ impl System {
         let mut own: Vec<Option<Vec<f64>>> = Vec::new();
         let mut offset = 0;
         for (number, term) in terms.iter_mut().enumerate() {
-            let values = term.pattern().values();
             if always || term.constant_tangent().is_none() {
                 self.buffer.clear();
-                self.buffer.resize(values, 0.0);
+                self.buffer.resize(term.pattern().values(), 0.0);
                 values_of(term, &mut self.buffer)?;
             }
             if keep {
@@ -453,14 +452,14 @@ impl System {
         terms: &mut [&mut dyn Linearized],
         rhs: &mut [f64],
     ) -> Result<usize, FemError> {
-        let load = rhs.to_vec();
-        match self.try_tangent(terms, rhs) {
-            Err(_) if self.spare.is_some() && !self.replaced => {
+        let load = self.spare.is_some().then(|| rhs.to_vec());
+        match (self.try_tangent(terms, rhs), load) {
+            (Err(_), Some(load)) if !self.replaced => {
                 rhs.copy_from_slice(&load);
                 self.exchange();
                 self.try_tangent(terms, rhs)
             }
-            solved => solved,
+            (solved, _) => solved,
         }
     }
 
